@@ -127,7 +127,10 @@ enum {
     ICC_FEATURE_HOLE = 1, /**< a simple polygon whose inside is not part of the domain */
     /** a polyline of 2 or more vertices that does not meet itself; with two vertices, a bone */
     ICC_FEATURE_LINE = 2,
-    ICC_FEATURE_POINT = 3 /**< one vertex */
+    ICC_FEATURE_POINT = 3, /**< one vertex */
+    /** a simple polygon whose inside is part of the domain: a part of it, an island in a hole, or
+     *  another piece of the domain */
+    ICC_FEATURE_REGION = 4
 };
 
 /** A hole, line or point inside a domain of the plane. A map takes it to the feature of the same

@@ -48,7 +48,7 @@ icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature, icc_
     full.orientation = item->orientation;
     full.first_vertex = item->first;
     full.n_vertices = item->n;
-    full.first_facet = item->kind == ICC_FEATURE_HOLE ? item->first_facet : 0;
+    full.first_facet = iccp_feature_is_ring(item->kind) ? item->first_facet : 0;
     return iccp_write_struct(info, &full, sizeof full, "icc_feature_info", NULL);
 }
 

@@ -12,8 +12,9 @@ ICCP_END(domain)
 static icc_status check_feature(size_t f, const icc_feature *feature, icc_error *err)
 {
     static const char *const counts[] = {"a hole has at least 3 vertices",
-                                         "a line has at least 2 vertices", "a point has 1 vertex"};
-    if (feature->kind < ICC_FEATURE_HOLE || feature->kind > ICC_FEATURE_POINT)
+                                         "a line has at least 2 vertices", "a point has 1 vertex",
+                                         "a region has at least 3 vertices"};
+    if (feature->kind < ICC_FEATURE_HOLE || feature->kind > ICC_FEATURE_REGION)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
                             "feature %zu: there is no kind %ld", f, (long)feature->kind);
     if (!iccp_feature_allows(feature->kind, feature->n_vertices))

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "domain/domain_make.h"
 #include "domain/features_check.h"
+#include "domain/network.h"
 #include "domain/polygon_domain.h"
 #include "domain/scan_polygon.h"
 #include "domain/tree_cross.h"
@@ -14,8 +15,10 @@
 
 static void clear(icc_domain *domain)
 {
-    if (domain->features != NULL)
+    if (domain->features != NULL) {
+        iccp_network_free(domain->features->network, &domain->memory);
         iccp_free(&domain->memory, domain->features->item);
+    }
     iccp_free(&domain->memory, domain->features);
     iccp_facet_tree_free(&domain->tree, &domain->memory);
 }
@@ -28,14 +31,19 @@ static size_t count_facets(const icc_feature *feature)
     return feature->kind == ICC_FEATURE_LINE ? feature->n_vertices - 1 : feature->n_vertices;
 }
 
-/* Numbers the facets of features: first the holes, which belong to the boundary, then the others.
- * Returns the next free number. */
-static uint32_t number_facets(iccp_features *features, const icc_feature *given, bool of_holes,
+/* The order of facets: holes and regions are rings. */
+static int rank_of(int32_t kind)
+{
+    return kind == ICC_FEATURE_HOLE ? 0 : kind == ICC_FEATURE_REGION ? 1 : 2;
+}
+
+/* Numbers the facets of features of a rank. Returns the next free number. */
+static uint32_t number_facets(iccp_features *features, const icc_feature *given, int rank,
                               uint32_t next)
 {
     for (size_t f = 0; f < features->n; ++f) {
         iccp_feature *feature = &features->item[f];
-        if ((feature->kind == ICC_FEATURE_HOLE) != of_holes)
+        if (rank_of(feature->kind) != rank)
             continue;
         feature->first_facet = next;
         feature->n_facets = (uint32_t)count_facets(&given[f]);
@@ -66,9 +74,11 @@ static icc_status lay_out(icc_domain *d, size_t n_outer, size_t n, const icc_fea
         features->n_holes += given[f].kind == ICC_FEATURE_HOLE;
         features->n_lines += given[f].kind == ICC_FEATURE_LINE;
         features->n_points += given[f].kind == ICC_FEATURE_POINT;
+        features->n_regions += given[f].kind == ICC_FEATURE_REGION;
     }
-    d->n_facets = number_facets(features, given, true, (uint32_t)n_outer);
-    features->n_places = number_facets(features, given, false, (uint32_t)d->n_facets);
+    d->n_facets = number_facets(features, given, 0, (uint32_t)n_outer);
+    d->n_facets = number_facets(features, given, 1, (uint32_t)d->n_facets);
+    features->n_places = number_facets(features, given, 2, (uint32_t)d->n_facets);
     return ICC_OK;
 }
 
@@ -92,7 +102,8 @@ static icc_status copy_boundary(icc_domain *d, const double *outer, const icc_fe
     d->facets = iccp_alloc(&d->memory, features->n_places, 2 * sizeof *d->facets);
     if (d->given == NULL || d->vertices == NULL || d->facets == NULL)
         return iccp_fail_memory(err);
-    memcpy(d->given, outer, 2 * n_outer * sizeof *outer);
+    if (n_outer > 0)
+        memcpy(d->given, outer, 2 * n_outer * sizeof *outer);
     fill_facets(d->facets, 0, (uint32_t)n_outer, (uint32_t)n_outer);
     for (size_t f = 0; f < features->n; ++f) {
         const iccp_feature *feature = &features->item[f];
@@ -142,28 +153,91 @@ static double ring_area(const icc_domain *d, size_t first, size_t n)
     return iccp_polygon_area(&ring);
 }
 
-static icc_status complete(icc_domain *d, const iccp_env *env, icc_error *err)
+/* Adds up the areas in the rings of the rim; those around holes turn right. `ring` has room for all
+ * facets of the boundary, and `seen` is 0 for each half-side. */
+static double rim_area(const icc_domain *d, double *ring, uint8_t *seen)
+{
+    const iccp_network *net = d->features->network;
+    double area = 0;
+    for (uint32_t first = 0; first < 2 * d->n_facets; ++first) {
+        if (!iccp_network_is_rim(net, first / 2) || net->face[first] == ICCP_NO_FACE || seen[first])
+            continue;
+        size_t n = 0;
+        double twice = 0; /* only its sign counts */
+        for (uint32_t h = first; !seen[h]; h = iccp_network_next_on_rim(net, d, h)) {
+            const double *a = d->vertices + 2 * (size_t)d->facets[h];
+            const double *b = d->vertices + 2 * (size_t)d->facets[h ^ 1];
+            seen[h] = 1;
+            memcpy(ring + 2 * n++, a, 2 * sizeof *a);
+            twice += a[0] * b[1] - b[0] * a[1];
+        }
+        const iccp_polygon polygon = {.n = n, .points = ring};
+        area += twice < 0 ? -iccp_polygon_area(&polygon) : iccp_polygon_area(&polygon);
+    }
+    return area;
+}
+
+static icc_status measure(icc_domain *d, const iccp_env *env)
 {
     const iccp_features *features = d->features;
+    icc_status status = ICC_OK;
+    if (features->n_regions > 0) {
+        double *ring = iccp_alloc(&env->memory, d->n_facets, 2 * sizeof *ring);
+        uint8_t *seen = iccp_alloc_zero(&env->memory, 2 * d->n_facets, sizeof *seen);
+        status = ring != NULL && seen != NULL ? ICC_OK : ICC_ERR_MEMORY;
+        if (status == ICC_OK)
+            d->measure = rim_area(d, ring, seen);
+        iccp_free(&env->memory, ring);
+        iccp_free(&env->memory, seen);
+    } else {
+        d->measure = ring_area(d, 0, features->n_outer);
+        for (size_t f = 0; f < features->n; ++f)
+            if (features->item[f].kind == ICC_FEATURE_HOLE)
+                d->measure -= ring_area(d, features->item[f].first, features->item[f].n);
+    }
+    d->measure = d->measure > 0 ? d->measure : 0; /* negative only by rounding */
+    return status;
+}
+
+/* Makes the tree over the rim. */
+static icc_status make_tree(icc_domain *d, const iccp_env *env)
+{
+    const iccp_network *net = d->features->network;
+    uint32_t *rim = iccp_alloc(&env->memory, net->n_rim, sizeof *rim);
+    size_t n = 0;
+    if (rim == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t f = 0; f < d->n_facets; ++f)
+        if (iccp_network_is_rim(net, f))
+            rim[n++] = f;
+    iccp_facet_tree_create_some(&d->tree, 2, d->vertices, n, rim, d->facets, &d->memory);
+    iccp_free(&env->memory, rim);
+    return d->tree.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+static icc_status complete(icc_domain *d, const iccp_env *env, icc_error *err)
+{
     icc_status status = localise(d, err);
     if (status == ICC_OK)
         status = iccp_features_check(d, env, err);
     if (status != ICC_OK)
         return status;
-    d->measure = ring_area(d, 0, features->n_outer);
-    for (size_t f = 0; f < features->n; ++f)
-        if (features->item[f].kind == ICC_FEATURE_HOLE)
-            d->measure -= ring_area(d, features->item[f].first, features->item[f].n);
-    d->measure = d->measure > 0 ? d->measure : 0; /* negative only by rounding */
     iccp_domain_measure_box(d);
-    iccp_facet_tree_create(&d->tree, 2, d->vertices, d->n_facets, d->facets, &d->memory);
-    return d->tree.boxes != NULL ? ICC_OK : iccp_fail_memory(err);
+    status = measure(d, env);
+    if (status == ICC_OK)
+        status = make_tree(d, env);
+    return iccp_explain(err, status);
 }
 
 static icc_status create(icc_domain **out, size_t n_outer, const double *outer, size_t n_features,
                          const icc_feature *features, const iccp_env *env, icc_error *err)
 {
-    icc_status status = iccp_polygon_check_counts(n_outer, 0, NULL, err);
+    bool has_regions = false;
+    for (size_t f = 0; f < n_features; ++f)
+        has_regions |= features[f].kind == ICC_FEATURE_REGION;
+    icc_status status = ICC_OK;
+    if (n_outer > 0 || !has_regions)
+        status = iccp_polygon_check_counts(n_outer, 0, NULL, err);
     if (status != ICC_OK)
         return status;
     icc_domain *domain = iccp_domain_new(2, &OPS, &env->memory);

@@ -1,10 +1,10 @@
-/* Holes, lines and points inside a polygon.
+/* Holes, regions, lines and points inside a polygon.
  *
  * In a domain with features, the vertices of the outer ring come first, then those of the features
- * in their order. The facets that form the boundary are the edges of the outer ring, then those of
- * the holes. The array domain->facets continues with the segments of the lines. Last, each point
- * has a facet with both ends at that point. So iccp_domain_facet_point() finds places on all of
- * them. */
+ * in their order. The facets of rings come first: the edges of the outer ring, then those of the
+ * holes, then those of the regions. The array domain->facets continues with the segments of lines,
+ * and a facet for each point, with both ends at that point. So iccp_domain_facet_point() finds
+ * places on all of them. Which places and facets coincide, the network tells (network.h). */
 #ifndef ICCP_FEATURES_H
 #define ICCP_FEATURES_H
 
@@ -12,7 +12,7 @@
 
 typedef struct iccp_feature {
     int32_t kind;        /* ICC_FEATURE_* */
-    int32_t orientation; /* +1 for a hole listed counter-clockwise, -1 for another hole; else 0 */
+    int32_t orientation; /* +1 for a ring listed counter-clockwise, -1 for another ring; else 0 */
     uint32_t first, n;   /* its vertices */
     /* The facet from its first vertex to the next; of a point: its only facet */
     uint32_t first_facet;
@@ -22,15 +22,22 @@ typedef struct iccp_feature {
 
 typedef struct iccp_features {
     size_t n, n_outer; /* number of features; vertices and facets of the outer ring */
-    size_t n_holes, n_lines, n_points;
+    size_t n_holes, n_lines, n_points, n_regions;
     size_t n_places; /* number of all facets, including those of lines and points */
     iccp_feature *item;
+    struct iccp_network *network; /* network.h */
 } iccp_features;
+
+/* Returns true for features that are closed polygons. */
+static inline bool iccp_feature_is_ring(int32_t kind)
+{
+    return kind == ICC_FEATURE_HOLE || kind == ICC_FEATURE_REGION;
+}
 
 /* Returns true if a feature of this kind may have n vertices. Returns false for unknown kinds. */
 static inline bool iccp_feature_allows(int32_t kind, size_t n)
 {
-    return (kind == ICC_FEATURE_HOLE && n >= 3) || (kind == ICC_FEATURE_LINE && n >= 2) ||
+    return (iccp_feature_is_ring(kind) && n >= 3) || (kind == ICC_FEATURE_LINE && n >= 2) ||
            (kind == ICC_FEATURE_POINT && n == 1);
 }
 

@@ -1,31 +1,30 @@
-/* Checks features. One plane sweep over all rings, lines and points finds a defect if there is one,
- * and tells how they contain one another (geometry/sweep.h). Only if there is a defect, rings are
- * checked one by one. So the messages are those for a single polygon. */
+/* Checks features. The network of the domain (network.h) finds a defect if there is one, and tells
+ * which sides lie in the domain. Only if there is a defect, rings are checked one by one. So the
+ * messages are those for a single polygon. */
 #include "domain/features_check.h"
 
 #include "base/error.h"
+#include "domain/network.h"
 #include "geometry/polygon_check.h"
 #include "geometry/segment.h"
-#include "geometry/sweep.h"
 #include "math/predicates.h"
 
 #include <stdio.h>
-#include <string.h>
 
-/* Chain 0 is the outer ring. Chain f + 1 is feature f. */
+static const uint32_t NONE = UINT32_MAX;
+
 typedef struct check {
     const icc_domain *domain;
-    iccp_chains chains;
-    iccp_chain *item;
-    double *points;
-    iccp_chain_place *places;
     const iccp_env *env;
     icc_error *err;
 } check;
 
 const char *iccp_feature_name(int32_t kind)
 {
-    return kind == ICC_FEATURE_HOLE ? "a hole" : kind == ICC_FEATURE_LINE ? "a line" : "a point";
+    return kind == ICC_FEATURE_HOLE    ? "a hole"
+           : kind == ICC_FEATURE_LINE  ? "a line"
+           : kind == ICC_FEATURE_POINT ? "a point"
+                                       : "a region";
 }
 
 icc_status iccp_features_blame(icc_error *err, const icc_error *own, size_t feature, int32_t kind)
@@ -36,98 +35,130 @@ icc_status iccp_features_blame(icc_error *err, const icc_error *own, size_t feat
 
 /* ---------------------------------------------------------------- messages */
 
-static const iccp_feature *feature_of(const check *c, uint32_t chain)
+/* A feature, or NONE for the outer ring. */
+static const iccp_feature *feature_of(const check *c, uint32_t feature)
 {
-    return &c->domain->features->item[chain - 1];
+    return feature != NONE ? &c->domain->features->item[feature] : NULL;
 }
 
-static const double *point(const check *c, uint32_t k)
+static const double *point(const check *c, uint32_t v)
 {
-    return c->points + 2 * (size_t)k;
+    return c->domain->vertices + 2 * (size_t)v;
 }
 
-/* Returns the number of a point or edge in its own chain. */
-static unsigned long number(const check *c, uint32_t chain, uint32_t k)
+/* An end of a facet: 0 or 1. */
+static const double *corner(const check *c, uint32_t facet, int end)
 {
-    return (unsigned long)(k - c->item[chain].first);
+    return point(c, c->domain->facets[2 * (size_t)facet + (size_t)end]);
+}
+
+/* Returns the number of a vertex in its own feature. */
+static unsigned long vertex_number(const check *c, uint32_t feature, uint32_t v)
+{
+    return (unsigned long)(feature != NONE ? v - feature_of(c, feature)->first : v);
+}
+
+static unsigned long facet_number(const check *c, uint32_t feature, uint32_t facet)
+{
+    return (unsigned long)(feature != NONE ? facet - feature_of(c, feature)->first_facet : facet);
+}
+
+static bool is_point(const check *c, uint32_t feature)
+{
+    return feature != NONE && feature_of(c, feature)->kind == ICC_FEATURE_POINT;
 }
 
 enum { NAME_SIZE = 64 };
 
 /* Writes a text such as "feature 3 (a line)". */
-static const char *name_chain(const check *c, uint32_t chain, char *text)
+static const char *name_feature(const check *c, uint32_t feature, char *text)
 {
-    if (chain == 0)
+    if (feature == NONE)
         return "the outer ring";
-    (void)snprintf(text, NAME_SIZE, "feature %lu (%s)", (unsigned long)chain - 1,
-                   iccp_feature_name(feature_of(c, chain)->kind));
+    (void)snprintf(text, NAME_SIZE, "feature %lu (%s)", (unsigned long)feature,
+                   iccp_feature_name(feature_of(c, feature)->kind));
     return text;
 }
 
 /* Writes "feature 3 (a line), vertex 2," and what is wrong with it. */
-static icc_status fail_vertex(const check *c, icc_status status, uint32_t chain, uint32_t v,
-                              const char *what, const char *where)
+static icc_status fail_vertex(const check *c, uint32_t feature, uint32_t v, const char *what,
+                              const char *where)
 {
     char name[NAME_SIZE];
-    return iccp_fail_at(c->err, status, ICC_ITEM_FEATURE, (int64_t)chain - 1,
-                        "%s, vertex %lu, %s %s", name_chain(c, chain, name), number(c, chain, v),
-                        what, where);
+    return iccp_fail_at(c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)feature,
+                        "%s, vertex %lu, %s %s", name_feature(c, feature, name),
+                        vertex_number(c, feature, v), what, where);
 }
 
 static void meeting_point(const check *c, uint32_t e, uint32_t f, double *at)
 {
-    iccp_segments_point(point(c, e), point(c, e + 1), point(c, f), point(c, f + 1), at);
+    iccp_segments_point(corner(c, e, 0), corner(c, e, 1), corner(c, f, 0), corner(c, f, 1), at);
     iccp_frame_out(&c->domain->frame, 2, at, at);
 }
 
 /* ---------------------------------------------------------------- defects */
 
+static icc_status check_ring(const check *c, uint32_t feature, size_t first, size_t n)
+{
+    icc_error own = {.size = sizeof own};
+    const icc_status status = iccp_polygon_check_points(n, point(c, (uint32_t)first), NULL,
+                                                        &c->domain->frame, c->env, &own);
+    if (status == ICC_ERR_BOUNDARY && feature != NONE)
+        return iccp_features_blame(c->err, &own, feature, feature_of(c, feature)->kind);
+    if (status != ICC_OK)
+        iccp_error_copy(c->err, &own);
+    return status;
+}
+
 /* Names the first ring that is not simple by itself. Returns ICC_OK if all are simple. */
 static icc_status check_rings(const check *c)
 {
-    for (uint32_t chain = 0; chain < c->chains.n; ++chain) {
-        const iccp_chain *ring = &c->item[chain];
-        if (!ring->closed)
-            continue;
-        icc_error own = {.size = sizeof own};
-        const icc_status status = iccp_polygon_check_points(ring->n, point(c, ring->first), NULL,
-                                                            &c->domain->frame, c->env, &own);
-        if (status == ICC_ERR_BOUNDARY && chain > 0)
-            return iccp_features_blame(c->err, &own, chain - 1, ICC_FEATURE_HOLE);
-        if (status != ICC_OK) {
-            iccp_error_copy(c->err, &own);
-            return status;
-        }
-    }
-    return ICC_OK;
+    const iccp_features *features = c->domain->features;
+    icc_status status = ICC_OK;
+    if (features->n_outer > 0)
+        status = check_ring(c, NONE, 0, features->n_outer);
+    for (uint32_t f = 0; f < features->n && status == ICC_OK; ++f)
+        if (iccp_feature_is_ring(features->item[f].kind))
+            status = check_ring(c, f, features->item[f].first, features->item[f].n);
+    return status;
+}
+
+/* Reports a line that repeats a vertex at once. */
+static icc_status fail_repeated(const check *c, uint32_t feature, const iccp_defect *defect)
+{
+    char name[NAME_SIZE];
+    return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature,
+                        "%s: vertex %lu repeats vertex %lu", name_feature(c, feature, name),
+                        vertex_number(c, feature, defect->b), vertex_number(c, feature, defect->a));
 }
 
 /* Reports a line that meets itself. */
-static icc_status fail_line(const check *c, uint32_t chain, const iccp_defect *defect)
+static icc_status fail_line(const check *c, uint32_t feature, const iccp_defect *defect)
 {
-    const unsigned long a = number(c, chain, defect->a), b = number(c, chain, defect->b);
-    const int64_t feature = (int64_t)chain - 1;
+    const uint32_t *facets = c->domain->facets;
     char name[NAME_SIZE];
     double at[2];
-    (void)name_chain(c, chain, name);
-    if (defect->kind == ICC_DEFECT_REPEATED)
-        return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, feature,
-                            "%s: vertex %lu repeats vertex %lu", name, b, a);
-    if (defect->kind == ICC_DEFECT_SPIKE)
-        return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, feature,
-                            "%s, vertex %lu: here it runs back over itself", name, a);
+    (void)name_feature(c, feature, name);
+    if (facets[2 * (size_t)defect->a + 1] == facets[2 * (size_t)defect->b])
+        return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature,
+                            "%s, vertex %lu: here it runs back over itself", name,
+                            vertex_number(c, feature, facets[2 * (size_t)defect->b]));
     meeting_point(c, defect->a, defect->b, at);
-    return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, feature,
-                        "%s: edges %lu and %lu %s near (%.9g, %.9g)", name, a, b,
+    return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature,
+                        "%s: edges %lu and %lu %s near (%.9g, %.9g)", name,
+                        facet_number(c, feature, defect->a), facet_number(c, feature, defect->b),
                         defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
 }
 
-/* Finds exactly where a point lies relative to the outer ring. */
-static int32_t place_in_ring(const check *c, const double *p)
+/* Finds exactly where a point lies relative to a ring that begins with a facet. ICC_BOUNDARY is
+ * only for places inside an edge; a vertex of the ring is 0. */
+static int32_t place_in_ring(const check *c, uint32_t first_facet, size_t n, const double *p)
 {
     bool odd = false;
-    for (uint32_t k = 0; k < c->item[0].n; ++k) {
-        const double *a = point(c, k), *b = point(c, k + 1);
+    for (uint32_t f = first_facet; f < first_facet + n; ++f) {
+        const double *a = corner(c, f, 0), *b = corner(c, f, 1);
+        if (iccp_point_equal(a, p) || iccp_point_equal(b, p))
+            return 0;
         if (iccp_segment_has(a, b, p))
             return ICC_BOUNDARY;
         if ((a[1] > p[1]) != (b[1] > p[1]))
@@ -136,54 +167,48 @@ static int32_t place_in_ring(const check *c, const double *p)
     return odd ? ICC_INSIDE : ICC_OUTSIDE;
 }
 
-/* Reports a feature that meets the outer ring. Names an end of its edge that does not lie inside
- * or, if both do, the edges. */
-static icc_status fail_outer(const check *c, uint32_t chain, uint32_t ring_edge, uint32_t edge,
-                             int32_t kind)
+/* Reports a feature that meets the outer ring. Names an end of its edge that lies outside or on an
+ * edge. If there is none, names the edges. */
+static icc_status fail_outer(const check *c, uint32_t feature, const iccp_defect *defect)
 {
-    const iccp_chain *own = &c->item[chain];
-    const uint32_t next = edge + 1 == own->first + own->n ? own->first : edge + 1;
-    const uint32_t ends[2] = {edge, next};
     char name[NAME_SIZE];
     double at[2];
-    for (int i = 0; i < 2; ++i) {
-        const int32_t where = place_in_ring(c, point(c, ends[i]));
-        if (where != ICC_INSIDE)
-            return fail_vertex(c, ICC_ERR_OUTSIDE, chain, ends[i],
-                               where == ICC_BOUNDARY ? "lies on" : "lies outside",
+    for (int end = 0; end < 2; ++end) {
+        const uint32_t v = c->domain->facets[2 * (size_t)defect->b + (size_t)end];
+        const int32_t where = place_in_ring(c, 0, c->domain->features->n_outer, point(c, v));
+        if (where == ICC_BOUNDARY || where == ICC_OUTSIDE)
+            return fail_vertex(c, feature, v, where == ICC_BOUNDARY ? "lies on" : "lies outside",
                                "the outer ring");
     }
-    meeting_point(c, ring_edge, edge, at);
-    return iccp_fail_at(c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)chain - 1,
+    meeting_point(c, defect->a, defect->b, at);
+    return iccp_fail_at(c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)feature,
                         "%s, edge %lu, %s the outer ring, edge %lu, near (%.9g, %.9g)",
-                        name_chain(c, chain, name), number(c, chain, edge),
-                        kind == ICC_DEFECT_CROSSING ? "crosses" : "touches",
-                        number(c, 0, ring_edge), at[0], at[1]);
+                        name_feature(c, feature, name), facet_number(c, feature, defect->b),
+                        defect->kind == ICC_DEFECT_CROSSING ? "crosses" : "touches",
+                        facet_number(c, NONE, defect->a), at[0], at[1]);
 }
 
-/* Reports two features that meet: a point or edge of one, and one of the other, which comes
- * later. */
+/* Reports two features that meet: a point or edge of one, and one of the other. */
 static icc_status fail_two(const check *c, const iccp_defect *defect, uint32_t first,
                            uint32_t second)
 {
-    const bool same = defect->kind == ICC_DEFECT_REPEATED;
-    const bool first_is_point = same || feature_of(c, first)->kind == ICC_FEATURE_POINT;
-    const bool second_is_point = same || feature_of(c, second)->kind == ICC_FEATURE_POINT;
+    uint32_t facet[2] = {defect->a, defect->b}, feature[2] = {first, second};
     char names[2][NAME_SIZE];
     double at[2];
-    if (first_is_point || second_is_point)
-        iccp_frame_out(&c->domain->frame, 2, point(c, second_is_point ? defect->b : defect->a), at);
-    else
-        meeting_point(c, defect->a, defect->b, at);
-    return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)second - 1,
-                        "%s, %s %lu, and %s, %s %lu, %s (%.9g, %.9g)",
-                        name_chain(c, second, names[1]), second_is_point ? "vertex" : "edge",
-                        number(c, second, defect->b), name_chain(c, first, names[0]),
-                        first_is_point ? "vertex" : "edge", number(c, first, defect->a),
-                        same                                  ? "coincide at"
-                        : defect->kind == ICC_DEFECT_CROSSING ? "cross near"
-                                                              : "touch near",
-                        at[0], at[1]);
+    if (first > second) {
+        facet[0] = defect->b;
+        facet[1] = defect->a;
+        feature[0] = second;
+        feature[1] = first;
+    }
+    meeting_point(c, facet[0], facet[1], at);
+    return iccp_fail_at(
+        c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature[1],
+        "%s, %s %lu, and %s, %s %lu, %s near (%.9g, %.9g)", name_feature(c, feature[1], names[1]),
+        is_point(c, feature[1]) ? "vertex" : "edge", facet_number(c, feature[1], facet[1]),
+        name_feature(c, feature[0], names[0]), is_point(c, feature[0]) ? "vertex" : "edge",
+        facet_number(c, feature[0], facet[0]),
+        defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
 }
 
 static icc_status fail_defect(const check *c, const iccp_defect *defect)
@@ -191,84 +216,80 @@ static icc_status fail_defect(const check *c, const iccp_defect *defect)
     const icc_status status = check_rings(c);
     if (status != ICC_OK)
         return status;
-    const uint32_t first = iccp_chain_of(&c->chains, defect->a),
-                   second = iccp_chain_of(&c->chains, defect->b);
+    if (defect->kind == ICC_DEFECT_REPEATED)
+        return fail_repeated(c, iccp_feature_of_vertex(c->domain->features, defect->a), defect);
+    const uint32_t first = iccp_feature_of_facet(c->domain, defect->a),
+                   second = iccp_feature_of_facet(c->domain, defect->b);
     if (first == second)
         return fail_line(c, first, defect);
-    if (first > 0)
-        return fail_two(c, defect, first, second);
-    if (defect->kind == ICC_DEFECT_REPEATED)
-        return fail_vertex(c, ICC_ERR_OUTSIDE, second, defect->b, "lies on", "the outer ring");
-    return fail_outer(c, second, defect->a, defect->b, defect->kind);
+    return first == NONE ? fail_outer(c, second, defect) : fail_two(c, defect, first, second);
 }
 
-/* Checks that all features lie in the outer ring and in no hole, if they do not meet. */
-static icc_status check_places(const check *c)
+/* ---------------------------------------------------------------- outside */
+
+/* Returns the last hole that has a point strictly inside, or NONE. */
+static uint32_t hole_around(const check *c, const double *p)
 {
-    char name[NAME_SIZE];
-    for (uint32_t chain = 1; chain < c->chains.n; ++chain) {
-        const uint32_t around = c->places[chain].around;
-        if (around == ICCP_NO_CHAIN)
-            return fail_vertex(c, ICC_ERR_OUTSIDE, chain, c->item[chain].first, "lies outside",
-                               "the outer ring");
-        if (around != 0)
-            return fail_vertex(c, ICC_ERR_OUTSIDE, chain, c->item[chain].first, "lies in",
-                               name_chain(c, around, name));
+    const iccp_features *features = c->domain->features;
+    uint32_t hole = NONE;
+    for (uint32_t f = 0; f < features->n; ++f) {
+        const iccp_feature *item = &features->item[f];
+        if (item->kind == ICC_FEATURE_HOLE &&
+            place_in_ring(c, item->first_facet, item->n_facets, p) == ICC_INSIDE)
+            hole = f;
+    }
+    return hole;
+}
+
+/* Reports a facet that lies nowhere in the domain. Names an end that tells, if there is one. */
+static icc_status fail_outside(const check *c, uint32_t facet)
+{
+    const iccp_features *features = c->domain->features;
+    const uint32_t feature = iccp_feature_of_facet(c->domain, facet);
+    char names[2][NAME_SIZE];
+    for (int end = 0; end < 2; ++end) {
+        const uint32_t v = c->domain->facets[2 * (size_t)facet + (size_t)end];
+        const uint32_t hole = hole_around(c, point(c, v));
+        if (hole != NONE)
+            return fail_vertex(c, feature, v, "lies in", name_feature(c, hole, names[1]));
+        if (place_in_ring(c, 0, features->n_outer, point(c, v)) == ICC_OUTSIDE)
+            return fail_vertex(c, feature, v, "lies outside",
+                               features->n_outer > 0 ? "the outer ring" : "all regions");
+    }
+    double middle[2];
+    for (int k = 0; k < 2; ++k)
+        middle[k] = 0.5 * (corner(c, facet, 0)[k] + corner(c, facet, 1)[k]);
+    const uint32_t hole = hole_around(c, middle);
+    return iccp_fail_at(c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)feature,
+                        "%s, edge %lu, lies %s %s", name_feature(c, feature, names[0]),
+                        facet_number(c, feature, facet), hole != NONE ? "in" : "outside",
+                        hole != NONE            ? name_feature(c, hole, names[1])
+                        : features->n_outer > 0 ? "the outer ring"
+                                                : "all regions");
+}
+
+/* Checks that each side, and each node without sides, lies in the domain or on its rim. Features
+ * come before the outer ring, which is not at fault. */
+static icc_status check_places(const check *c, const iccp_network *net)
+{
+    const iccp_features *features = c->domain->features;
+    for (uint32_t f = (uint32_t)features->n_outer; f < features->n_places; ++f) {
+        const uint32_t side = net->side[f], node = net->node[c->domain->facets[2 * (size_t)f]];
+        const bool on_node =
+            is_point(c, iccp_feature_of_facet(c->domain, f)) && iccp_network_degree(net, node) > 0;
+        if (!on_node && net->face[2 * (size_t)side] == ICCP_NO_FACE &&
+            net->face[2 * (size_t)side + 1] == ICCP_NO_FACE)
+            return fail_outside(c, f);
     }
     return ICC_OK;
 }
 
-/* ------------------------------------------------------------------ chains */
-
-static void add_chain(check *c, uint32_t chain, size_t first, size_t n, bool closed)
-{
-    const uint32_t at = (uint32_t)c->chains.n_points;
-    const double *from = c->domain->vertices + 2 * first;
-    c->item[chain] = (iccp_chain){at, (uint32_t)n, closed};
-    memcpy(c->points + 2 * (size_t)at, from, 2 * n * sizeof *from);
-    if (closed)
-        memcpy(c->points + 2 * (at + n), from, 2 * sizeof *from);
-    c->chains.n_points += n + closed;
-}
-
-static void add_chains(check *c)
-{
-    const iccp_features *features = c->domain->features;
-    add_chain(c, 0, 0, features->n_outer, true);
-    for (uint32_t f = 0; f < features->n; ++f)
-        add_chain(c, f + 1, features->item[f].first, features->item[f].n,
-                  features->item[f].kind == ICC_FEATURE_HOLE);
-}
-
-static icc_status run(check *c)
-{
-    iccp_defect defect = {0};
-    add_chains(c);
-    icc_status status = iccp_sweep_chains(&defect, c->places, &c->chains, c->env);
-    if (status != ICC_OK)
-        return iccp_explain(c->err, status);
-    return defect.kind != 0 ? fail_defect(c, &defect) : check_places(c);
-}
-
 icc_status iccp_features_check(icc_domain *domain, const iccp_env *env, icc_error *err)
 {
-    iccp_features *features = domain->features;
-    const size_t n = features->n + 1;
-    const iccp_memory *memory = &domain->memory;
-    check c = {.domain = domain, .env = env, .err = err};
-    c.points = iccp_alloc(memory, domain->n_vertices + n, 2 * sizeof *c.points);
-    c.item = iccp_alloc(memory, n, sizeof *c.item);
-    c.places = iccp_alloc(memory, n, sizeof *c.places);
-    c.chains = (iccp_chains){.points = c.points, .n = n, .item = c.item};
-    icc_status status =
-        c.points != NULL && c.item != NULL && c.places != NULL ? run(&c) : iccp_fail_memory(err);
-    if (status == ICC_OK) {
-        domain->orientation = c.places[0].orientation;
-        for (size_t f = 0; f < features->n; ++f)
-            features->item[f].orientation = c.places[f + 1].orientation;
-    }
-    iccp_free(memory, c.points);
-    iccp_free(memory, c.item);
-    iccp_free(memory, c.places);
-    return status;
+    const check c = {.domain = domain, .env = env, .err = err};
+    iccp_defect found = {0};
+    const icc_status status = iccp_network_create(&domain->features->network, &found, domain, env);
+    if (status != ICC_OK)
+        return iccp_explain(err, status);
+    return found.kind != 0 ? fail_defect(&c, &found) : check_places(&c, domain->features->network);
 }

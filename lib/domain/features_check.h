@@ -1,20 +1,20 @@
-/* Checks that features lie inside a polygon, and that they meet neither themselves nor one
- * another. */
+/* Checks that features lie in the domain, and that they meet themselves and one another only at
+ * common vertices. */
 #ifndef ICCP_FEATURES_CHECK_H
 #define ICCP_FEATURES_CHECK_H
 
 #include "domain/features.h"
 
-/* Returns "a hole", "a line" or "a point". */
+/* Returns "a hole", "a line", "a point" or "a region". */
 const char *iccp_feature_name(int32_t kind);
 
 /* Completes the message of a failure with the feature at fault. `own` describes the failure in the
  * numbers of the feature. Returns the status of `own`. */
 icc_status iccp_features_blame(icc_error *err, const icc_error *own, size_t feature, int32_t kind);
 
-/* Checks the outer ring and the features of a domain, and fills in their orientations. The domain's
- * local vertices, frame and features must be there otherwise. Exact. Returns ICC_ERR_BOUNDARY and
- * ICC_ERR_OUTSIDE as icc_domain_create_features() does. */
+/* Checks the outer ring and the features of a domain, makes its network, and fills in the
+ * orientations of rings. The domain's local vertices, frame and features must be there otherwise.
+ * Exact. Returns ICC_ERR_BOUNDARY and ICC_ERR_OUTSIDE as icc_domain_create_features() does. */
 icc_status iccp_features_check(icc_domain *domain, const iccp_env *env, icc_error *err);
 
 #endif

@@ -7,6 +7,7 @@
 #include "domain/scan_polygon.h"
 
 #include "base/minmax.h"
+#include "domain/network.h"
 #include "math/predicates.h"
 
 #include <math.h>
@@ -79,8 +80,11 @@ static void mark_crossing(const work *w, size_t j, const double *a, const double
  * toggles. The work is the number of crossings, so progress counts these, not edges. */
 static icc_status mark_edges(const work *w, const icc_domain *domain, const iccp_env *env)
 {
+    const iccp_network *network = iccp_network_of(domain);
     size_t n_crossings = 0, next_report = 0;
     for (size_t e = 0; e < domain->n_facets; ++e) {
+        if (network != NULL && !iccp_network_is_rim(network, (uint32_t)e))
+            continue;
         if (n_crossings >= next_report) {
             const double share = 0.5 * (double)e / (double)domain->n_facets;
             if (iccp_progress(env, "grid", share) != ICC_OK)

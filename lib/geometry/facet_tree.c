@@ -182,20 +182,22 @@ static ICCP_INLINE void fill_boxes(iccp_facet_tree *tree, size_t dim, size_t n_c
         include(dim, tree->boxes + 2 * dim * (node / 2), tree->boxes + 2 * dim * node);
 }
 
+/* `list` tells the facets; NULL: all. */
 static ICCP_INLINE void fill_rows(const iccp_facet_tree *tree, size_t dim, size_t n_corners,
-                                  double *rows)
+                                  const uint32_t *list, double *rows)
 {
-    for (uint32_t f = 0; f < tree->n; ++f) {
+    for (uint32_t i = 0; i < tree->n; ++i) {
+        const uint32_t f = list != NULL ? list[i] : i;
         double box[2 * ICC_MAX_DIM];
         iccp_facet_box_of(tree, dim, n_corners, f, box);
         for (size_t k = 0; k < dim; ++k)
-            rows[(dim + 1) * f + k] = box[k] + box[dim + k];
-        rows[(dim + 1) * f + dim] = f;
+            rows[(dim + 1) * i + k] = box[k] + box[dim + k];
+        rows[(dim + 1) * i + dim] = f;
     }
 }
 
 /* Builds the tree from dim, n_corners, n, vertices and facets. */
-static void make(iccp_facet_tree *tree, const iccp_memory *memory)
+static void make(iccp_facet_tree *tree, const uint32_t *list, const iccp_memory *memory)
 {
     const size_t dim = tree->dim, n = tree->n;
     const bool surface = dim == 3 && tree->n_corners == 3;
@@ -211,9 +213,9 @@ static void make(iccp_facet_tree *tree, const iccp_memory *memory)
         return;
     }
     if (surface)
-        fill_rows(tree, 3, 3, rows);
+        fill_rows(tree, 3, 3, list, rows);
     else
-        fill_rows(tree, dim, tree->n_corners, rows);
+        fill_rows(tree, dim, tree->n_corners, list, rows);
     arrange(dim, rows, n, tree->n_leaves * LEAF);
     for (size_t place = 0; place < n; ++place)
         tree->order[place] = (uint32_t)rows[(dim + 1) * place + dim];
@@ -224,12 +226,19 @@ static void make(iccp_facet_tree *tree, const iccp_memory *memory)
         fill_boxes(tree, dim, tree->n_corners);
 }
 
-void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices, size_t n,
-                            const uint32_t *facets, const iccp_memory *memory)
+void iccp_facet_tree_create_some(iccp_facet_tree *tree, size_t dim, const double *vertices,
+                                 size_t n, const uint32_t *list, const uint32_t *facets,
+                                 const iccp_memory *memory)
 {
     *tree = (iccp_facet_tree){
         .dim = dim, .n_corners = dim, .n = n, .vertices = vertices, .facets = facets};
-    make(tree, memory);
+    make(tree, list, memory);
+}
+
+void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices, size_t n,
+                            const uint32_t *facets, const iccp_memory *memory)
+{
+    iccp_facet_tree_create_some(tree, dim, vertices, n, NULL, facets, memory);
 }
 
 void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const double *vertices,
@@ -237,7 +246,7 @@ void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const doubl
 {
     *tree = (iccp_facet_tree){
         .dim = dim, .n_corners = dim + 1, .n = n, .vertices = vertices, .facets = simplices};
-    make(tree, memory);
+    make(tree, NULL, memory);
 }
 
 void iccp_facet_tree_include(iccp_facet_tree *tree, size_t place, const double *box)

@@ -31,6 +31,10 @@ static inline uint32_t iccp_facet_at(const iccp_facet_tree *tree, size_t place)
 /* Makes the tree. tree->boxes is NULL if there is no memory. */
 void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices,
                             size_t n_facets, const uint32_t *facets, const iccp_memory *memory);
+/* Like iccp_facet_tree_create(), over n of the facets: list[0], list[1], .. in rising order. */
+void iccp_facet_tree_create_some(iccp_facet_tree *tree, size_t dim, const double *vertices,
+                                 size_t n, const uint32_t *list, const uint32_t *facets,
+                                 const iccp_memory *memory);
 /* Like iccp_facet_tree_create(), over simplices with dim + 1 corners each. They are also called
  * facets below. */
 void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const double *vertices,

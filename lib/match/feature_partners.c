@@ -16,7 +16,7 @@ static const double noise = 1e-3;
 
 /* Kinds of features. A point with a circle is a kind of its own, which decides the partner of the
  * point. */
-enum { RIM = ICC_FEATURE_POINT + 1, KINDS };
+enum { RIM = ICC_FEATURE_REGION + 1, KINDS };
 
 static int32_t kind_of(const iccp_feature *feature)
 {
@@ -34,6 +34,7 @@ icc_status iccp_features_count(const icc_domain *source, const icc_domain *targe
     static const char *const name[KINDS] = {[ICC_FEATURE_HOLE] = "holes",
                                             [ICC_FEATURE_LINE] = "lines inside",
                                             [ICC_FEATURE_POINT] = "points inside",
+                                            [ICC_FEATURE_REGION] = "regions",
                                             [RIM] = "points with a radius"};
     const icc_domain *const domains[2] = {source, target};
     size_t n[2][KINDS] = {{0}, {0}};
@@ -149,7 +150,8 @@ icc_status iccp_features_partner(uint32_t *partner, const icc_domain *source,
                                  const icc_domain *target, const double *moved, double sure,
                                  const iccp_env *env, icc_error *err)
 {
-    static const int32_t order[] = {ICC_FEATURE_HOLE, ICC_FEATURE_LINE, RIM, ICC_FEATURE_POINT};
+    static const int32_t order[] = {ICC_FEATURE_HOLE, ICC_FEATURE_REGION, ICC_FEATURE_LINE, RIM,
+                                    ICC_FEATURE_POINT};
     const size_t n = source->features->n;
     pairs p = {.domain = {source, target}, .vertices = {moved, target->vertices}};
     p.partner[0] = partner;

@@ -48,7 +48,7 @@ static inline bool on(spot a, spot b, spot p)
 
 static inline bool is_ring(const chain *c)
 {
-    return c->kind <= ICC_FEATURE_HOLE;
+    return c->kind != ICC_FEATURE_LINE && c->kind != ICC_FEATURE_POINT;
 }
 
 /* A point has one edge, from itself to itself. */
@@ -71,37 +71,50 @@ static inline bool edges_meet(const chain *c, int e, const chain *d, int f)
     return turn(p, q, r) * turn(p, q, s) < 0 && turn(r, s, p) * turn(r, s, q) < 0;
 }
 
-/* Two chains, or vertices or edges of one that is bad by itself. */
-static inline bool chains_meet(const chain *c, const chain *d)
+/* Whether q and r, both different from v, lie in the same direction from v. */
+static inline bool fold(spot v, spot q, spot r)
+{
+    return turn(q, v, r) == 0 && (q.x - v.x) * (r.x - v.x) + (q.y - v.y) * (r.y - v.y) > 0;
+}
+
+/* Whether two edges of one or two chains have more in common than vertices, or than a whole edge
+ * that both may run along. */
+static inline bool edges_clash(const chain *c, int e, const chain *d, int f)
+{
+    const spot p = corner(c, e), q = corner(c, e + 1), r = corner(d, f), s = corner(d, f + 1);
+    if (c->kind == ICC_FEATURE_POINT || d->kind == ICC_FEATURE_POINT)
+        return edges_meet(c, e, d, f) && !same(p, r) && !same(p, s) && !same(q, r);
+    if ((same(p, r) && same(q, s)) || (same(p, s) && same(q, r)))
+        return c == d || (is_ring(c) && is_ring(d) && c->kind != ICC_FEATURE_REGION &&
+                          d->kind != ICC_FEATURE_REGION);
+    if (same(p, r) || same(p, s) || same(q, r) || same(q, s))
+        return (same(p, r) && fold(p, q, s)) || (same(p, s) && fold(p, q, r)) ||
+               (same(q, r) && fold(q, p, s)) || (same(q, s) && fold(q, p, r));
+    return edges_meet(c, e, d, f);
+}
+
+static inline bool chains_clash(const chain *c, const chain *d)
 {
     for (int e = 0; e < count_edges(c); ++e)
         for (int f = 0; f < count_edges(d); ++f)
-            if (edges_meet(c, e, d, f))
+            if (edges_clash(c, e, d, f))
                 return true;
     return false;
 }
 
-/* Whether neighbouring edges e and f, which share a vertex, have more in common. */
-static inline bool fold(const chain *c, int v)
-{
-    const spot p = corner(c, v + c->n - 1), m = corner(c, v), q = corner(c, v + 1);
-    return same(p, m) || same(m, q) ||
-           (turn(p, m, q) == 0 && (p.x - m.x) * (q.x - m.x) + (p.y - m.y) * (q.y - m.y) > 0);
-}
-
-static inline bool meets_itself(const chain *c)
+/* A ring must not repeat a vertex at all, a line not at once. */
+static inline bool clashes_with_itself(const chain *c)
 {
     const int n = count_edges(c);
     if (c->kind == ICC_FEATURE_POINT)
         return false;
-    for (int v = is_ring(c) ? 0 : 1; v < (is_ring(c) ? c->n : c->n - 1); ++v)
-        if (fold(c, v))
-            return true;
-    if (same(c->at[0], c->at[1]))
-        return true;
+    for (int i = 0; i < c->n; ++i)
+        for (int j = i + 1; j < c->n; ++j)
+            if (same(c->at[i], c->at[j]) && (is_ring(c) || j == i + 1))
+                return true;
     for (int e = 0; e < n; ++e)
-        for (int f = e + 2; f < n; ++f)
-            if (!(is_ring(c) && e == 0 && f == n - 1) && edges_meet(c, e, c, f))
+        for (int f = e + 1; f < n; ++f)
+            if (edges_clash(c, e, c, f))
                 return true;
     return false;
 }
@@ -119,22 +132,75 @@ static inline int32_t where_in_ring(const chain *ring, spot p)
     return inside ? ICC_INSIDE : ICC_OUTSIDE;
 }
 
-/* Of chains that do not meet, or of points: whether the whole of c lies in the ring. */
-static inline bool lies_in(const chain *c, const chain *ring)
+static inline int64_t area_of(const chain *ring)
 {
-    return is_ring(ring) && where_in_ring(ring, c->at[0]) == ICC_INSIDE;
+    int64_t area = 0;
+    for (int i = 0; i < ring->n; ++i)
+        area +=
+            corner(ring, i).x * corner(ring, i + 1).y - corner(ring, i + 1).x * corner(ring, i).y;
+    return area;
+}
+
+/* Whether a place just left of the middle of pq lies in a ring that does not clash with pq. For
+ * p = q, whether the point lies strictly inside. */
+static inline bool left_is_in(const chain *ring, spot p, spot q)
+{
+    chain twice = *ring;
+    for (int i = 0; i < ring->n; ++i) {
+        const spot a = corner(ring, i), b = corner(ring, i + 1);
+        twice.at[i] = (spot){2 * a.x, 2 * a.y};
+        if (same(a, p) && same(b, q))
+            return area_of(ring) > 0;
+        if (same(a, q) && same(b, p))
+            return area_of(ring) < 0;
+    }
+    return where_in_ring(&twice, (spot){p.x + q.x, p.y + q.y}) == ICC_INSIDE;
+}
+
+/* In how many of the outer ring and regions the place left of pq lies, less the number of holes. */
+static inline int count_left(const picture *p, spot a, spot b)
+{
+    int count = 0;
+    for (int i = 0; i <= p->n; ++i)
+        if (is_ring(&p->chains[i]) && left_is_in(&p->chains[i], a, b))
+            count += p->chains[i].kind == ICC_FEATURE_HOLE ? -1 : 1;
+    return count;
+}
+
+/* Whether a point is a vertex of anything that has edges. */
+static inline bool is_vertex(const picture *p, spot at)
+{
+    for (int i = 0; i <= p->n; ++i)
+        for (int k = 0; k < p->chains[i].n && p->chains[i].kind != ICC_FEATURE_POINT; ++k)
+            if (same(p->chains[i].at[k], at))
+                return true;
+    return false;
+}
+
+/* Whether all edges and points of a chain lie in the domain or on its rim. */
+static inline bool lies_in_domain(const picture *p, const chain *c)
+{
+    for (int e = 0; e < count_edges(c); ++e) {
+        const spot a = corner(c, e), b = corner(c, e + 1);
+        if (count_left(p, a, b) <= 0 && count_left(p, b, a) <= 0 &&
+            !(c->kind == ICC_FEATURE_POINT && is_vertex(p, a)))
+            return false;
+    }
+    return true;
 }
 
 static inline bool is_sound(const picture *p)
 {
     for (int i = 0; i <= p->n; ++i) {
-        if (meets_itself(&p->chains[i]))
+        if (clashes_with_itself(&p->chains[i]))
             return false;
-        for (int j = 0; j <= p->n; ++j)
-            if (j != i && ((j > i && chains_meet(&p->chains[i], &p->chains[j])) ||
-                           (i > 0 && lies_in(&p->chains[i], &p->chains[j]) != (j == 0))))
+        for (int j = i + 1; j <= p->n; ++j)
+            if (chains_clash(&p->chains[i], &p->chains[j]))
                 return false;
     }
+    for (int i = 1; i <= p->n; ++i)
+        if (!lies_in_domain(p, &p->chains[i]))
+            return false;
     return true;
 }
 
@@ -171,7 +237,7 @@ static inline void random_picture(picture *p, random_source *r)
         const int margin = random_below(r, 8) == 0 ? 0 : spread + 1;
         const int room = SIDE - 2 * margin + 1;
         p->chains[f + 1] =
-            random_chain(r, 1 + random_below(r, 3), margin + random_below(r, room > 0 ? room : 1),
+            random_chain(r, 1 + random_below(r, 4), margin + random_below(r, room > 0 ? room : 1),
                          margin + random_below(r, room > 0 ? room : 1), spread);
     }
 }

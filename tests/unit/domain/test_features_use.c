@@ -4,6 +4,7 @@
 #include "base/blob.h"
 #include "domain/domain_file.h"
 #include "domain/features.h"
+#include "domain/network.h"
 #include "icc/kernel.h"
 #include "icc/stages.h"
 
@@ -124,16 +125,23 @@ END_TEST
 
 /* ----------------------------------------------------------------- locating */
 
+/* Whether the domain is on one side of an edge only. */
+static bool is_rim(const picture *p, spot a, spot b)
+{
+    return (count_left(p, a, b) > 0) != (count_left(p, b, a) > 0);
+}
+
 static int32_t slow_where(const picture *p, spot at)
 {
-    const int32_t outer = where_in_ring(&p->chains[0], at);
-    for (int i = 1; i <= p->n && outer == ICC_INSIDE; ++i)
-        if (p->chains[i].kind == ICC_FEATURE_HOLE) {
-            const int32_t hole = where_in_ring(&p->chains[i], at);
-            if (hole != ICC_OUTSIDE)
-                return hole == ICC_INSIDE ? ICC_OUTSIDE : ICC_BOUNDARY;
+    bool on_edge = false;
+    for (int i = 0; i <= p->n; ++i)
+        for (int e = 0; e < count_edges(&p->chains[i]); ++e) {
+            const spot a = corner(&p->chains[i], e), b = corner(&p->chains[i], e + 1);
+            on_edge |= on(a, b, at);
+            if (is_ring(&p->chains[i]) && on(a, b, at) && is_rim(p, a, b))
+                return ICC_BOUNDARY;
         }
-    return outer;
+    return on_edge || count_left(p, at, at) > 0 ? ICC_INSIDE : ICC_OUTSIDE;
 }
 
 static double distance_to(const double *a, const double *b, const double *p)
@@ -164,8 +172,9 @@ static void check_points(const icc_domain *domain, const picture *doubled, doubl
             ck_assert(icc_domain_locate(domain, 1, p, &where[1], NULL, NULL, NULL) == ICC_OK);
             ck_assert(where[0] == expected && where[1] == expected && facet < info.n_facets);
             for (size_t f = 0; f < info.n_facets; ++f)
-                nearest = fmin(nearest, distance_to(vertices + 2 * facets[2 * f],
-                                                    vertices + 2 * facets[2 * f + 1], p));
+                if (iccp_network_is_rim(domain->features->network, (uint32_t)f))
+                    nearest = fmin(nearest, distance_to(vertices + 2 * facets[2 * f],
+                                                        vertices + 2 * facets[2 * f + 1], p));
             for (int k = 0; k < 2; ++k)
                 at[k] = bary[0] * vertices[2 * facets[2 * facet] + (uint32_t)k] +
                         bary[1] * vertices[2 * facets[2 * facet + 1] + (uint32_t)k];
