@@ -12,6 +12,7 @@ typedef struct vertex {
     bool position;             /* it is the position itself */
     size_t from;
     double along;
+    bool on_cage;
     bool open; /* the piece up to the next vertex still has to be tested */
 } vertex;
 

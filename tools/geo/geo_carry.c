@@ -90,6 +90,7 @@ vertex geo_vertex_of(const carriage *c, const geo_node *node)
     vertex v = {.point = {node->at[0], node->at[1]},
                 .image = {NAN, NAN},
                 .from = node->from,
+                .on_cage = node->place == GEO_ON_CAGE,
                 .open = node->in};
     if (node->from != SIZE_MAX) {
         const origin *o = &c->origins[node->from];
@@ -107,8 +108,21 @@ vertex geo_vertex_of(const carriage *c, const geo_node *node)
     return v;
 }
 
+/* Closes pieces along an edge of the cage, where the map is linear. */
+static void close_on_cage(carriage *c, polyline *line)
+{
+    for (size_t i = 0; i + 1 < line->n; i++) {
+        vertex *v = &line->vertices[i];
+        double share[2];
+        if (v->open && v[0].on_cage && v[1].on_cage)
+            v->open = noding_common_edge(&c->noding, v[0].point, v[1].point, &share[0],
+                                         &share[1]) == GEO_NOWHERE;
+    }
+}
+
 bool geo_refine_line(carriage *c, polyline *line)
 {
+    close_on_cage(c, line);
     if (c->edges == NULL)
         return polyline_densify(line, c->cage, c->options->tolerance, c->wrong) == DONE;
     polyline_cut(line, c->edges, c->options->drop);
