@@ -359,7 +359,7 @@ static bool prepare_layer(carriage *c, map_edges *edges)
     bool exact = c->options->exact;
     if (!geo_layer_read(l, &c->index, c->text, c->cage->snap, exact, c->wrong))
         return false;
-    if ((exact || l->n_shared > 0) && map_edges_make(edges, c->cage))
+    if ((exact || l->n_shared > 0) && map_edges_make(edges, &c->noding))
         c->edges = edges;
     else if (exact)
         return spoilt(c->wrong, 0, "exact lines need the triangles of a mesh map");

@@ -9,82 +9,110 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Cuts this close, as a share of the segment, are one. That is some thousand roundings: edges that
  * meet in a vertex beside the segment are crossed so close to each other. */
 static const double SAME_SHARE = 1e-12;
 
+/* An edge of triangles, smaller vertex first. */
+typedef struct mesh_edge {
+    uint32_t ends[2];
+    bool border; /* of one triangle only */
+} mesh_edge;
+
 static int by_ends(const void *a, const void *b)
 {
-    const uint32_t *x = a, *y = b;
+    const uint32_t *x = ((const mesh_edge *)a)->ends, *y = ((const mesh_edge *)b)->ends;
     return x[0] != y[0] ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] > y[1]) - (x[1] < y[1]);
 }
 
-/* Lists each edge of the triangles once, smaller vertex first. Returns their number. */
-static size_t list_edges(size_t n_triangles, const uint32_t *triangles, uint32_t (*out)[2])
+/* Lists each edge of the triangles once. Returns their number. */
+static size_t list_edges(size_t n_triangles, const uint32_t *triangles, mesh_edge *out)
 {
     size_t n = 0, n_kept = 0;
     for (size_t t = 0; t < n_triangles; t++)
         for (size_t k = 0; k < 3; k++) {
             uint32_t a = triangles[3 * t + k], b = triangles[3 * t + (k + 1) % 3];
-            out[n][0] = a < b ? a : b;
-            out[n++][1] = a < b ? b : a;
+            out[n++] = (mesh_edge){{a < b ? a : b, a < b ? b : a}, true};
         }
     qsort(out, n, sizeof *out, by_ends);
     for (size_t i = 0; i < n; i++)
-        if (i == 0 || by_ends(out[i], out[i - 1]) != 0)
-            memmove(out[n_kept++], out[i], sizeof *out);
+        if (i > 0 && by_ends(&out[i], &out[n_kept - 1]) == 0)
+            out[n_kept - 1].border = false;
+        else
+            out[n_kept++] = out[i];
     return n_kept;
 }
 
-/* Adds an end of an edge. y is reversed where the map's domain has it so. */
+/* Copies a vertex. y is reversed where the map's domain has it so. */
 static void put_end(double *out, const double *vertex, bool flipped)
 {
     out[0] = vertex[0];
     out[1] = flipped ? 0 - vertex[1] : vertex[1];
 }
 
-static bool add_edges(map_edges *out, size_t *room, const carrier *c, const icc_map *map)
+/* The mesh of a map: vertices of both sides, in the order of the carrier. */
+typedef struct map_mesh {
+    double *vertices[2];
+    uint32_t *triangles;
+    size_t n_triangles;
+} map_mesh;
+
+static bool take_mesh(map_mesh *out, const icc_map *map, bool inverse)
 {
     icc_map_info info = {.size = sizeof info};
+    *out = (map_mesh){0};
     if (icc_map_get_info(map, &info) != ICC_OK || info.kind != ICC_MAP_MESH)
         return false;
-    double *sides[2] = {need(info.n_vertices, 2 * sizeof(double)),
-                        need(info.n_vertices, 2 * sizeof(double))};
-    uint32_t *triangles = need(info.n_simplices, 3 * sizeof *triangles),
-             (*edges)[2] = need(info.n_simplices, 3 * sizeof *edges);
+    for (size_t side = 0; side < 2; side++)
+        out->vertices[side] = need(info.n_vertices, 2 * sizeof(double));
+    out->triangles = need(info.n_simplices, 3 * sizeof *out->triangles);
+    out->n_triangles = info.n_simplices;
     icc_mesh mesh = {.size = sizeof mesh,
                      .n_vertices = info.n_vertices,
-                     .vertices = sides[0],
+                     .vertices = out->vertices[inverse],
                      .n_cells = info.n_simplices,
-                     .cells = triangles};
-    bool good = icc_map_get_mesh(map, &mesh, sides[1]) == ICC_OK;
-    size_t n = good ? list_edges(info.n_simplices, triangles, edges) : 0, room_images = *room;
-    out->ends = grow(out->ends, room, out->n + n, 4 * sizeof *out->ends);
-    out->images = grow(out->images, &room_images, out->n + n, 4 * sizeof *out->images);
-    for (size_t i = 0; i < 2 * n; i++) {
-        size_t vertex = edges[i / 2][i % 2];
-        put_end(out->ends + 4 * out->n + 2 * i, sides[c->inverse] + 2 * vertex, c->flipped[0]);
-        put_end(out->images + 4 * out->n + 2 * i, sides[!c->inverse] + 2 * vertex, c->flipped[1]);
-    }
-    out->n += n;
-    free(sides[0]);
-    free(sides[1]);
-    free(triangles);
-    free(edges);
-    return good;
+                     .cells = out->triangles};
+    return icc_map_get_mesh(map, &mesh, out->vertices[!inverse]) == ICC_OK;
 }
 
-bool map_edges_make(map_edges *out, const carrier *c)
+static void add_edges(map_edges *out, size_t room[2], noding *x, const map_mesh *mesh)
 {
-    size_t room = 0;
+    const carrier *c = x->cage;
+    mesh_edge *edges = need(mesh->n_triangles, 3 * sizeof *edges);
+    size_t n = list_edges(mesh->n_triangles, mesh->triangles, edges);
+    out->ends = grow(out->ends, &room[0], out->n + n, 4 * sizeof *out->ends);
+    out->images = grow(out->images, &room[1], out->n + n, 4 * sizeof *out->images);
+    for (size_t i = 0; i < n; i++) {
+        double *ends = out->ends + 4 * out->n, *images = out->images + 4 * out->n, shares[2];
+        for (size_t k = 0; k < 2; k++) {
+            size_t vertex = edges[i].ends[k];
+            put_end(ends + 2 * k, mesh->vertices[0] + 2 * vertex, c->flipped[0]);
+            put_end(images + 2 * k, mesh->vertices[1] + 2 * vertex, c->flipped[1]);
+        }
+        bool on_cage = edges[i].border &&
+                       noding_common_edge(x, ends, ends + 2, &shares[0], &shares[1]) != GEO_NOWHERE;
+        out->n += !on_cage;
+    }
+    free(edges);
+}
+
+bool map_edges_make(map_edges *out, noding *x)
+{
+    size_t room[2] = {0, 0};
     bool good = true;
     *out = (map_edges){0};
-    for (size_t m = 0; m < c->n_maps && good; m++)
-        good = add_edges(out, &room, c, c->maps[m].map);
+    for (size_t m = 0; m < x->cage->n_maps && good; m++) {
+        map_mesh mesh;
+        good = take_mesh(&mesh, x->cage->maps[m].map, x->cage->inverse);
+        if (good)
+            add_edges(out, room, x, &mesh);
+        free(mesh.vertices[0]);
+        free(mesh.vertices[1]);
+        free(mesh.triangles);
+    }
     if (good)
-        segment_tree_make(&out->tree, out->n, out->ends, 8 * DBL_EPSILON * c->largest);
+        segment_tree_make(&out->tree, out->n, out->ends, 8 * DBL_EPSILON * x->cage->largest);
     return good;
 }
 

@@ -3,7 +3,7 @@
 #ifndef MAP_EDGES_H
 #define MAP_EDGES_H
 
-#include "geo/carrier.h"
+#include "geo/noding.h"
 #include "geo/segment_tree.h"
 
 /* A place strictly between the ends of a segment. */
@@ -20,9 +20,10 @@ typedef struct map_edges {
     size_t n_cuts, room_cuts;
 } map_edges;
 
-/* Collects the edges of all maps of a plane carrier. False if not all of them are mesh maps. Free
- * the result in either case. */
-bool map_edges_make(map_edges *out, const carrier *c);
+/* Collects the edges of all maps of a plane carrier, except those on the cage:
+ * lines have nodes there already. False if not all maps are mesh maps. Free the result in either
+ * case. */
+bool map_edges_make(map_edges *out, noding *x);
 void map_edges_free(map_edges *edges);
 
 /* Finds the cuts of a segment, in edges->cuts. They are the same, bit by bit, for the segment from
