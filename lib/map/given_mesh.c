@@ -161,29 +161,18 @@ static icc_status localise(double *local, const icc_domain *domain, size_t n, co
     return ICC_OK;
 }
 
-static void fix(iccp_plmap *pl, uint32_t vertex, uint8_t kind, size_t facet)
-{
-    pl->fixed[vertex] = kind;
-    pl->facet[vertex] = (uint32_t)facet;
-}
-
-/* Fixes the vertices of the boundary and the held ones to the facets of the domain. */
+/* Fixes the vertices of the boundary and the held ones to those of the domain. */
 static void fix_all(iccp_plmap *pl, const maker *m)
 {
-    const size_t n_outer = m->rings.ring[m->outer].n;
-    const iccp_features *features = m->domains[0]->features;
-    memset(pl->fixed, ICCP_FREE, pl->n_vertices * sizeof *pl->fixed);
-    memset(pl->facet, 0, pl->n_vertices * sizeof *pl->facet);
-    for (size_t v = 0; v < pl->n_vertices; ++v)
-        pl->along[v] = 0;
-    for (size_t k = 0; k < n_outer; ++k)
-        fix(pl, m->vertex[k], ICCP_ALONG, k);
-    for (size_t i = 0; features != NULL && i < features->n; ++i) {
-        const iccp_feature *f = &features->item[i];
-        for (size_t k = 0; k < f->n; ++k)
-            fix(pl, m->vertex[f->first + k],
-                f->kind == ICC_FEATURE_HOLE ? ICCP_ALONG : ICCP_ON_POINT, f->first_facet + k);
-    }
+    const icc_domain *source = m->domains[0];
+    iccp_plmap_fix_none(pl, source->features != NULL ? source : NULL);
+    for (uint32_t k = 0; k < source->n_vertices; ++k)
+        if (source->features != NULL) {
+            iccp_plmap_fix_node(pl, m->vertex[k], k);
+        } else {
+            pl->fixed[m->vertex[k]] = ICCP_ALONG;
+            pl->facet[m->vertex[k]] = k;
+        }
 }
 
 static icc_status fill_in(icc_map *map, maker *m, const iccp_env *env, icc_error *err)

@@ -6,16 +6,23 @@
 #include "base/budget.h"
 #include "base/clock.h"
 #include "domain/domain_file.h"
+#include "map/compatible/plmap_file.h"
 #include "method/load.h"
 
 static const char KIND[] = "MAP_";
-/* Versions of the format: 2 for maps with features, 3 for maps with a chart whose format came with
- * version 2 of charts, 1 for all others. So a map is saved in one way only. */
-enum { PLAIN_VERSION = 1, FEATURES_VERSION, CHARTS_VERSION };
+/* Versions of the format: 4 for maps with features, 3 for maps with a chart whose format came with
+ * version 2 of charts, 1 for all others. So a map is saved in one way only. Version 2 was for maps
+ * with features that do not touch. */
+enum { PLAIN_VERSION = 1, APART_VERSION, CHARTS_VERSION, FEATURES_VERSION = ICCP_VERSION_NETWORKS };
+
+static bool has_features(const iccp_blob *b)
+{
+    return b->version == FEATURES_VERSION || b->version == APART_VERSION;
+}
 
 static icc_status visit_domain(iccp_blob *b, icc_domain **domain, const iccp_env *env)
 {
-    if (b->version != FEATURES_VERSION)
+    if (!has_features(b))
         return iccp_domain_visit(b, domain, env);
     const icc_status status = iccp_domain_visit_any(b, domain, env);
     if (status != ICC_OK || (*domain)->features != NULL)
@@ -90,7 +97,7 @@ static icc_status visit_facts(iccp_blob *b, iccp_map_facts *info)
     iccp_blob_size(b, &info->n_iterations);
     iccp_blob_f64(b, 1, &info->energy_start);
     iccp_blob_f64(b, 1, &info->energy);
-    if (b->version == FEATURES_VERSION) {
+    if (has_features(b)) {
         iccp_blob_i32(b, ICCP_U32, 0, 1, &info->class_kept);
         iccp_blob_i32(b, ICCP_U32, 0, INT32_MAX, &info->n_trees);
     }
@@ -117,7 +124,7 @@ static icc_status visit(iccp_blob *b, icc_map **map, const iccp_env *part, icc_e
     iccp_blob_require(b, kind == ICC_MAP_MESH || has_charts);
     iccp_blob_require(b,
                       b->version == PLAIN_VERSION || has_charts == (b->version == CHARTS_VERSION));
-    iccp_blob_require(b, b->version != FEATURES_VERSION || kind == ICC_MAP_MESH);
+    iccp_blob_require(b, !has_features(b) || kind == ICC_MAP_MESH);
     icc_status status = b->status;
     if (status == ICC_OK)
         status = visit_domains(b, map, &part[0]);
@@ -160,7 +167,8 @@ icc_status iccp_map_load(icc_map **out, size_t n_bytes, const void *data, const 
     const double start = iccp_seconds();
     iccp_blob b;
     *out = NULL;
-    icc_status status = iccp_blob_open(&b, data, n_bytes, KIND, CHARTS_VERSION, &env->memory, err);
+    icc_status status =
+        iccp_blob_open(&b, data, n_bytes, KIND, FEATURES_VERSION, &env->memory, err);
     if (status != ICC_OK)
         return status;
     iccp_budget budget;

@@ -1,6 +1,7 @@
 /* Makes piecewise linear maps of the plane, tests them, and cuts their edges. */
 #include "map/compatible/plmap.h"
 
+#include "domain/network.h"
 #include "math/predicates.h"
 
 #include <string.h>
@@ -80,6 +81,7 @@ icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_
     if (status == ICC_OK) {
         iccp_plmap_fill(map, other->points, other->images, other->corners.vertex,
                         other->corners.twin);
+        map->featured = other->featured;
         memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
         memcpy(map->facet, other->facet, other->n_vertices * sizeof *map->facet);
         memcpy(map->along, other->along, other->n_vertices * sizeof *map->along);
@@ -144,64 +146,108 @@ static void middle_of(const double *a, const double *b, double m[2])
     m[1] = 0.5 * a[1] + 0.5 * b[1];
 }
 
-/* The lower of the two vertices has the segment as its facet. The other has it, too, or is where
- * the next segment of the same line begins. */
+/* ---- the network of a source with features ---- */
+
+/* The node at an end of a facet: 0 or 1. */
+static uint32_t node_at(const iccp_plmap *map, uint32_t facet, uint32_t end)
+{
+    return iccp_network_of(map->featured)->node[map->featured->facets[2 * (size_t)facet + end]];
+}
+
+void iccp_plmap_fix_none(iccp_plmap *map, const icc_domain *featured)
+{
+    map->featured = featured;
+    memset(map->fixed, ICCP_FREE, map->n_vertices * sizeof *map->fixed);
+    memset(map->facet, 0, map->n_vertices * sizeof *map->facet);
+    for (size_t v = 0; v < map->n_vertices; ++v)
+        map->along[v] = 0;
+}
+
+void iccp_plmap_fix_node(iccp_plmap *map, size_t v, uint32_t source_vertex)
+{
+    const uint32_t place = iccp_network_of(map->featured)->place[source_vertex];
+    map->fixed[v] = ICCP_ON_NETWORK;
+    map->facet[v] = place / 2;
+    map->along[v] = place % 2;
+}
+
+uint32_t iccp_plmap_node(const iccp_plmap *map, uint32_t v)
+{
+    const double along = map->along[v];
+    return map->fixed[v] != ICCP_ON_NETWORK || (along > 0 && along < 1)
+               ? UINT32_MAX
+               : node_at(map, map->facet[v], along > 0);
+}
+
+/* Finds where a vertex lies on a facet. `node`: its node, or UINT32_MAX. Returns false if it does
+ * not lie there. */
+static bool find_place(const iccp_plmap *map, uint32_t v, uint32_t node, uint32_t facet,
+                       double *place)
+{
+    const bool is_end = node != UINT32_MAX && node == node_at(map, facet, 1);
+    *place = node == UINT32_MAX ? map->along[v] : is_end;
+    return node == UINT32_MAX ? map->facet[v] == facet : is_end || node == node_at(map, facet, 0);
+}
+
+/* Two nodes are on a side if the network joins them. Otherwise the vertex that is no node tells the
+ * side. */
 bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t *facet,
                         double *from, double *to)
 {
-    const uint8_t *held = map->fixed;
-    for (int k = 0; k < 2; ++k) {
-        const uint32_t low = k == 0 ? a : b, high = k == 0 ? b : a;
-        const bool is_next = map->facet[high] == map->facet[low] + 1 && !(map->along[high] > 0) &&
-                             held[high] == ICCP_ON_LINE;
-        const bool is_same =
-            map->facet[high] == map->facet[low] && map->along[high] > map->along[low];
-        if ((held[low] != ICCP_LINE_BEGIN && held[low] != ICCP_ON_LINE) ||
-            (held[high] != ICCP_ON_LINE) || !(map->along[low] < 1) || !(is_next || is_same))
-            continue;
-        const double ends[2] = {map->along[low], is_next ? 1 : map->along[high]};
-        *facet = map->facet[low];
-        *from = ends[k];
-        *to = ends[1 - k];
-        return true;
+    if (map->fixed[a] != ICCP_ON_NETWORK || map->fixed[b] != ICCP_ON_NETWORK)
+        return false;
+    const uint32_t node[2] = {iccp_plmap_node(map, a), iccp_plmap_node(map, b)};
+    if (node[0] != UINT32_MAX && node[1] != UINT32_MAX) {
+        if (!iccp_network_side(iccp_network_of(map->featured), map->featured, node[0], node[1],
+                               facet))
+            return false;
+    } else {
+        *facet = map->facet[node[0] == UINT32_MAX ? a : b];
     }
-    return false;
+    return find_place(map, a, node[0], *facet, from) && find_place(map, b, node[1], *facet, to);
 }
 
-bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, uint32_t *vertex)
+bool iccp_plmap_find_vertices(const iccp_plmap *map, uint32_t *vertex)
 {
+    const iccp_network *network = iccp_network_of(map->featured);
+    const size_t n_given = map->featured->n_vertices;
     size_t n = 0;
-    memset(vertex, 0xff, source->n_vertices * sizeof *vertex);
-    for (size_t v = 0; v < map->n_vertices; ++v) {
-        const uint32_t *ends = source->facets + 2 * (size_t)map->facet[v];
-        if (map->fixed[v] == ICCP_FREE || (map->along[v] > 0 && map->along[v] < 1))
+    memset(vertex, 0xff, n_given * sizeof *vertex);
+    for (uint32_t v = 0; v < map->n_vertices; ++v) {
+        const uint32_t node = iccp_plmap_node(map, v);
+        if (node == UINT32_MAX)
             continue;
-        uint32_t *own = &vertex[ends[map->along[v] > 0]];
-        if (*own != UINT32_MAX)
+        if (vertex[node] != UINT32_MAX)
             return false;
-        *own = (uint32_t)v;
+        vertex[node] = v;
         ++n;
     }
-    return n == source->n_vertices;
+    for (size_t v = 0; v < n_given; ++v)
+        vertex[v] = vertex[network->node[v]];
+    return n == network->n_nodes;
 }
 
 /* Records what vertex m is fixed to, in the middle of the edge from a to b. An edge of the boundary
- * has the inside on its left. */
-static void place_on_edge(iccp_plmap *map, size_t m, bool is_boundary, uint32_t a, uint32_t b)
+ * has the inside on its left. Returns false if rounding leaves no place between a and b. */
+static bool place_on_edge(iccp_plmap *map, size_t m, bool is_boundary, uint32_t a, uint32_t b)
 {
     uint32_t facet = 0;
     double from = 0, to = 0;
+    bool has_place = true;
     map->fixed[m] = ICCP_FREE;
-    if (is_boundary) {
+    if (iccp_plmap_on_line(map, a, b, &facet, &from, &to)) {
+        const double middle = 0.5 * (from + to);
+        map->fixed[m] = ICCP_ON_NETWORK;
+        has_place = (from < middle && middle < to) || (to < middle && middle < from);
+    } else if (is_boundary) {
         map->fixed[m] = map->fixed[a];
         facet = map->facet[a];
         from = map->along[a];
         to = map->facet[b] == facet ? map->along[b] : map->fixed[a] == ICCP_ALONG ? 1 : 0;
-    } else if (map->fixed[a] != ICCP_FREE && map->fixed[b] != ICCP_FREE &&
-               iccp_plmap_on_line(map, a, b, &facet, &from, &to))
-        map->fixed[m] = ICCP_ON_LINE;
+    }
     map->facet[m] = facet;
     map->along[m] = 0.5 * (from + to);
+    return has_place;
 }
 
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
@@ -218,11 +264,14 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
     const icc_status status = make_room(map, map->n_vertices + 1, map->corners.n_triangles + 2);
     if (status != ICC_OK)
         return status;
-    const size_t m = map->n_vertices++;
+    const size_t m = map->n_vertices;
+    *done = place_on_edge(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
+                          map->corners.vertex[before]);
+    if (!*done)
+        return ICC_OK;
+    ++map->n_vertices;
     memcpy(map->points + 2 * m, point, sizeof point);
     memcpy(map->images + 2 * m, image, sizeof image);
-    place_on_edge(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
-                  map->corners.vertex[before]);
     iccp_cut_edge(&map->corners, corner, (uint32_t)m);
     return ICC_OK;
 }

@@ -7,6 +7,7 @@
  *   of a map in the plane or in space.
  * - positive triangle: one that is counter-clockwise, by the exact sign of its determinant.
  * - fixed vertex: one of the boundary, of a line or of a point, whose image is prescribed.
+ * - row: the edges of the mesh along one side of a network (domain/network.h).
  * - chord: an inner edge between two fixed vertices.
  * - overlay: the common refinement of two triangulations.
  * - energy: the mean symmetric Dirichlet energy; 4 for an isometry.
@@ -14,7 +15,8 @@
  * Invariants
  * - Points are positive everywhere. Images are positive once overlays have replaced inverted parts,
  *   and then each operation keeps them so.
- * - The vertices of the boundary stay on its facets.
+ * - The vertices of the boundary stay on its facets. With features, each side of the network is a
+ *   row of edges.
  *
  * Ways
  * - To a one-to-one map: overlay.h, compatible.h, overlay_start.h, overlay_patches.h.
@@ -39,12 +41,12 @@
 /* What a vertex is fixed to, and what iccp_plmap::facet then means. */
 enum {
     ICCP_FREE = 0,
-    ICCP_ALONG,      /* to the boundary: the facet of the edge that begins there and has the inside
-                        on its left. The facet runs along with the edge */
-    ICCP_AGAINST,    /* the same, but the facet runs against the edge */
-    ICCP_LINE_BEGIN, /* to a line, as its first vertex: the line's first segment */
-    ICCP_ON_LINE,    /* to a line: the segment that begins there, or the last segment */
-    ICCP_ON_POINT    /* to a point: the point's own facet */
+    ICCP_ALONG,     /* to the boundary: the facet of the edge that begins there and has the inside
+                       on its left. The facet runs along with the edge */
+    ICCP_AGAINST,   /* the same, but the facet runs against the edge */
+    ICCP_ON_POINT,  /* held inside the mesh (map/nearest, lib/fit): no facet */
+    ICCP_ON_NETWORK /* to the network of a source with features: a side of it, or a lone point. At a
+                       node, `facet` and `along` are the node's place (domain/network.h) */
 };
 
 typedef struct iccp_plmap {
@@ -60,6 +62,7 @@ typedef struct iccp_plmap {
     double stretch;  /* multiplies lengths of the source in energies, so that both areas are
                             the same and energies measure shape alone */
     const struct iccp_newton_plan *plan; /* as in iccp_simplicial_map, borrowed */
+    const icc_domain *featured; /* the source if it has features, borrowed; NULL otherwise */
 } iccp_plmap;
 
 /* Makes room for so many vertices and triangles. The caller fills them in. */
@@ -148,25 +151,37 @@ static inline uint8_t iccp_plmap_sense(const icc_domain *domain)
     return domain->orientation > 0 ? ICCP_ALONG : ICCP_AGAINST;
 }
 
-/* Whether the edge between two neighbours in the mesh is a piece of a line. Then *facet is the
- * segment, and *from and *to are their places on it. */
+/* ---- the network of a source with features ---- */
+
+/* Makes all vertices free. `featured`: the source if it has features, or NULL. It must live as long
+ * as the map uses it. */
+void iccp_plmap_fix_none(iccp_plmap *map, const icc_domain *featured);
+
+/* Fixes a vertex to the place of a vertex of the source. */
+void iccp_plmap_fix_node(iccp_plmap *map, size_t v, uint32_t source_vertex);
+
+/* Returns the node of the network at which a vertex lies, or UINT32_MAX if it lies at none. */
+uint32_t iccp_plmap_node(const iccp_plmap *map, uint32_t v);
+
+/* Whether the edge between two neighbours in the mesh is a piece of a side of the network. Then
+ * *facet is the side, and *from and *to are their places on it. */
 bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t *facet,
                         double *from, double *to);
 
-/* Whether the edge that a corner faces is a piece of a line. Such an edge must stay. */
+/* Whether the edge that a corner faces is a piece of a side. Such an edge must stay. */
 static inline bool iccp_plmap_is_line(const iccp_plmap *map, uint32_t corner)
 {
     const uint32_t a = map->corners.vertex[iccp_after(corner)];
     const uint32_t b = map->corners.vertex[iccp_before(corner)];
     uint32_t facet;
     double from, to;
-    return map->fixed[a] >= ICCP_LINE_BEGIN && map->fixed[b] >= ICCP_LINE_BEGIN &&
+    return map->fixed[a] == ICCP_ON_NETWORK && map->fixed[b] == ICCP_ON_NETWORK &&
            iccp_plmap_on_line(map, a, b, &facet, &from, &to);
 }
 
-/* Finds the mesh's vertex at each vertex of the source. Returns false unless there is one for
- * each. */
-bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, uint32_t *vertex);
+/* Finds the mesh's vertex at each vertex of a source with features. Returns false unless there is
+ * exactly one at each node. */
+bool iccp_plmap_find_vertices(const iccp_plmap *map, uint32_t *vertex);
 
 /* Whether a triangle is positive before and after the map, exactly. */
 bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle);

@@ -5,9 +5,12 @@
 #include "base/blob.h"
 #include "map/compatible/plmap.h"
 
+/* The version of the bytes of maps that lists vertices on a network (map/map_file.c). */
+enum iccp_plmap_version { ICCP_VERSION_NETWORKS = 4 };
+
 /* Reads into a map that is all zero, or writes. ICC_ERR_FORMAT unless the triangles are a manifold
- * whose boundary goes once along the facets of both domains. The certificate checks the signs
- * (map/plane/plane_certificate.h). */
+ * whose boundary goes once along the facets of both domains, which have no features. The
+ * certificate checks the rest (map/plane/plane_certificate.h). */
 icc_status iccp_plmap_visit(iccp_blob *b, iccp_plmap *map, const icc_domain *source,
                             const icc_domain *target, const iccp_env *env);
 

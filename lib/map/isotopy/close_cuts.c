@@ -61,59 +61,21 @@ static void join_triangles(iccp_plmap *map, const closing *c)
             mesh->twin[c->facing[i]] = c->facing[p->partner[i]];
 }
 
-/* Records the place of a vertex on a line or a point. The polygon's edge at such a vertex does not
- * tell the facet. */
-static void place_feature(iccp_plmap *map, uint32_t v, const iccp_feature *f, uint32_t vertex)
-{
-    const uint32_t place = vertex - f->first;
-    const bool is_last = f->kind == ICC_FEATURE_LINE && place + 1 == f->n;
-    map->fixed[v] = f->kind != ICC_FEATURE_LINE ? ICCP_ON_POINT
-                    : place == 0                ? ICCP_LINE_BEGIN
-                                                : ICCP_ON_LINE;
-    map->facet[v] = f->first_facet + place - is_last;
-    map->along[v] = is_last ? 1 : 0;
-}
-
-/* Records the facet of a ring for vertex v. The polygon's edge from a to b lies on the ring and has
- * the inside on its left. */
-static void place_on_ring(iccp_plmap *map, uint32_t v, const icc_domain *domain,
-                          const iccp_domain_pair *domains, uint32_t a, uint32_t b)
-{
-    const uint32_t component = domains->component[a];
-    const iccp_feature *f = component > 0 ? &domain->features->item[component - 1] : NULL;
-    const uint32_t first = f != NULL ? f->first : 0;
-    const uint32_t first_facet = f != NULL ? f->first_facet : 0;
-    const bool is_along = domain->facets[2 * (size_t)(first_facet + a - first) + 1] == b;
-    map->fixed[v] = is_along ? ICCP_ALONG : ICCP_AGAINST;
-    map->facet[v] = first_facet + (is_along ? a : b) - first;
-    map->along[v] = is_along ? 0 : 1;
-}
-
-/* Records what the vertices at the corners of a polygon are fixed to. `number` has those of its
- * overlay. */
+/* Fixes the vertices at the corners of a polygon that are vertices of the domain. `number` has the
+ * vertices of its overlay. */
 static void place_corners(iccp_plmap *map, const closing *c, size_t polygon, const uint32_t *number)
 {
-    const iccp_domain_pair *domains = c->domains;
-    const icc_domain *domain = domains->domain[0];
     const iccp_cut_polygons *p = c->polygons;
     const uint32_t n = iccp_cut_polygon_size(p, polygon), *vertex = p->vertex + p->first[polygon];
-    for (uint32_t i = 0; i < n; ++i) {
-        const uint32_t a = vertex[i], b = vertex[i + 1 < n ? i + 1 : 0];
-        const uint32_t component = a < domains->n ? domains->component[a] : 0;
-        if (p->partner[p->first[polygon] + i] == NONE)
-            place_on_ring(map, number[i], domain, domains, a, b);
-        else if (a < domains->n && component > 0 &&
-                 domain->features->item[component - 1].kind != ICC_FEATURE_HOLE)
-            place_feature(map, number[i], &domain->features->item[component - 1], a);
-    }
+    for (uint32_t i = 0; i < n; ++i)
+        if (vertex[i] < c->domains->n)
+            iccp_plmap_fix_node(map, number[i], vertex[i]);
 }
 
 static void place_vertices(iccp_plmap *map, const closing *c)
 {
     const uint32_t *number = c->number;
-    memset(map->fixed, 0, map->n_vertices);
-    memset(map->facet, 0, map->n_vertices * sizeof *map->facet);
-    memset(map->along, 0, map->n_vertices * sizeof *map->along);
+    iccp_plmap_fix_none(map, c->domains->domain[0]);
     for (size_t q = 0; q < c->polygons->n_polygons; ++q) {
         const iccp_overlay *o = &c->overlays[q];
         for (size_t i = 0; i < o->n_vertices; ++i) {

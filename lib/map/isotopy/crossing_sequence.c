@@ -314,7 +314,7 @@ icc_status iccp_sequences_of_images(iccp_sequences *sequences, const iccp_cuts *
     icc_status status = iccp_sequences_begin(sequences, cuts->n, &env->memory);
     if (status == ICC_OK && vertex == NULL)
         status = ICC_ERR_MEMORY;
-    if (status == ICC_OK && !iccp_plmap_find_vertices(map, source, vertex))
+    if (status == ICC_OK && !iccp_plmap_find_vertices(map, vertex))
         status = ICC_ERR_TOPOLOGY;
     if (status == ICC_OK) {
         status = iccp_triangulation_create(&mesh, &map->corners, map->n_vertices, map->points, NULL,

@@ -62,7 +62,7 @@ void iccp_affine_frame_set(const iccp_affine_frame *frame, double scale, iccp_pl
     for (size_t v = 0; v < map->n_vertices; ++v) {
         const double *p = map->points + 2 * v, x = middle[0] + scale * (p[0] - middle[0]),
                      y = middle[1] + scale * (p[1] - middle[1]);
-        if (map->fixed[v] == ICCP_FREE || map->fixed[v] >= ICCP_LINE_BEGIN)
+        if (map->fixed[v] == ICCP_FREE || map->fixed[v] == ICCP_ON_POINT)
             continue;
         for (size_t d = 0; d < 2; ++d)
             map->images[2 * v + d] =

@@ -71,7 +71,7 @@ bool iccp_may_flip_to_delaunay(const iccp_plmap *map, uint32_t corner)
     const uint32_t x = v[corner], y = v[twin], a = v[iccp_after(corner)],
                    b = v[iccp_before(corner)];
     const double *p = map->points;
-    if (map->fixed[x] >= ICCP_LINE_BEGIN && map->fixed[y] >= ICCP_LINE_BEGIN)
+    if (map->fixed[x] == ICCP_ON_POINT && map->fixed[y] == ICCP_ON_POINT)
         return false;
     if (iccp_incircle(p + 2 * (size_t)x, p + 2 * (size_t)a, p + 2 * (size_t)b, p + 2 * (size_t)y) <=
             0 ||

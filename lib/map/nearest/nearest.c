@@ -173,7 +173,7 @@ static icc_status approach(iccp_plmap *map, size_t first, const double *model, b
         mark_movable(movable, map, first);
         for (size_t v = 0; v < map->n_vertices; ++v)
             fixed[v] =
-                map->fixed[v] >= ICCP_LINE_BEGIN || (map->fixed[v] != ICCP_FREE && !boundary_moves);
+                map->fixed[v] == ICCP_ON_POINT || (map->fixed[v] != ICCP_FREE && !boundary_moves);
         iccp_simplicial_map s = iccp_plmap_simplicial(map);
         s.fixed = fixed;
         s.plan = NULL;

@@ -80,14 +80,14 @@ static icc_status make_domain(icc_domain **out, const iccp_rim *rim, const doubl
 }
 
 /* Brings a map from the domains' local coordinates to those of the whole. Vertices of the domains
- * get their coordinates and numbers from the rim. */
+ * get their coordinates and numbers from the rim, and are fixed as those of the whole are. */
 static icc_status bring_back(iccp_refill *f, const iccp_rim *rim, const iccp_plmap *whole,
                              icc_domain *const domain[2], const iccp_memory *memory)
 {
     uint32_t *at = iccp_alloc(memory, domain[0]->n_vertices, sizeof *at);
     icc_status status =
         at != NULL ? allocate_numbers(f, f->map.n_vertices, memory) : ICC_ERR_MEMORY;
-    if (status == ICC_OK && !iccp_plmap_find_vertices(&f->map, domain[0], at))
+    if (status == ICC_OK && !iccp_plmap_find_vertices(&f->map, at))
         status = ICC_ERR_CERTIFICATE;
     for (size_t v = 0; status == ICC_OK && v < f->map.n_vertices; ++v) {
         iccp_frame_out(&domain[0]->frame, 2, f->map.points + 2 * v, f->map.points + 2 * v);
@@ -98,10 +98,12 @@ static icc_status bring_back(iccp_refill *f, const iccp_rim *rim, const iccp_plm
         for (uint32_t j = rim->ring[k].first; j < rim->ring[k].first + rim->ring[k].n; ++j) {
             const size_t v = at[i++], own = rim->vertex[j];
             f->vertex[v] = (uint32_t)own;
+            f->map.fixed[v] = k < rim->n_rings ? ICCP_ALONG : ICCP_ON_POINT;
             memcpy(f->map.points + 2 * v, whole->points + 2 * own, 2 * sizeof(double));
             memcpy(f->map.images + 2 * v, whole->images + 2 * own, 2 * sizeof(double));
         }
     f->map.stretch = whole->stretch;
+    f->map.featured = NULL;
     iccp_free(memory, at);
     return status == ICC_OK && !iccp_plmap_is_positive(&f->map) ? ICC_ERR_CERTIFICATE : status;
 }

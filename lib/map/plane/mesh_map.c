@@ -2,7 +2,7 @@
 #include "map/plane/mesh_map.h"
 
 #include "base/clock.h"
-#include "domain/features.h"
+#include "domain/network.h"
 
 #include <string.h>
 
@@ -82,6 +82,19 @@ void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const 
     iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
 }
 
+/* Whether a vertex is fixed to the network, but not to its rim. */
+static bool is_fixed_inside(const iccp_plmap *pl, uint32_t v)
+{
+    if (pl->fixed[v] != ICCP_ON_NETWORK)
+        return false;
+    const iccp_network *network = iccp_network_of(pl->featured);
+    const uint32_t node = iccp_plmap_node(pl, v);
+    bool is = node != UINT32_MAX || !iccp_network_is_rim(network, pl->facet[v]);
+    for (uint32_t i = 0; node != UINT32_MAX && i < iccp_network_degree(network, node); ++i)
+        is &= !iccp_network_is_rim(network, network->leaving[network->first[node] + i] / 2);
+    return is;
+}
+
 /* A point is a vertex if the other two weights are 0; its own weight may be rounded. The weights
  * are tested first, because that needs no memory access. */
 bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex)
@@ -90,8 +103,8 @@ bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, u
     if ((found->bary[0] > 0) + (found->bary[1] > 0) + (found->bary[2] > 0) > 1)
         return false;
     for (size_t k = 0; k < 3; ++k)
-        if (map->pl.fixed[v[k]] >= ICCP_LINE_BEGIN && !(found->bary[(k + 1) % 3] > 0) &&
-            !(found->bary[(k + 2) % 3] > 0)) {
+        if (!(found->bary[(k + 1) % 3] > 0) && !(found->bary[(k + 2) % 3] > 0) &&
+            is_fixed_inside(&map->pl, v[k])) {
             *vertex = v[k];
             return true;
         }

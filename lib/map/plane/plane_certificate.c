@@ -1,13 +1,19 @@
 /* Proves that a piecewise linear map in the plane is one-to-one (docs/theory/plane-maps.md).
  *
- * Three facts are enough. Every triangle is positive before and after the map. By Euler's formula
- * the mesh is a disc, or a disc with one hole for each further ring. Before and after the map, the
- * rings of its boundary are simple, touch nowhere and bound one region. */
+ * Two facts are enough. Every triangle is positive before and after the map. And before and after
+ * the map, the boundary of the mesh winds once around each place on its left and around no other.
+ * For this number counts the triangles that cover a place.
+ *
+ * Without features, the boundary consists of rings that touch nowhere. Then Euler's formula also
+ * shows that the mesh is in one piece and that triangles use all vertices. With features, rings may
+ * touch, and the mesh must follow the network of the source (map/compatible/network_rows.h). */
 #include "map/plane/plane_certificate.h"
 
 #include "base/error.h"
 #include "base/threads.h"
 #include "domain/outlines.h"
+#include "geometry/edges_bound.h"
+#include "map/compatible/network_rows.h"
 
 #include <stdatomic.h>
 
@@ -43,6 +49,45 @@ static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const i
     iccp_free(&env->memory, next);
     iccp_outlines_free(&s.outlines);
     return status;
+}
+
+/* ---- boundaries that may touch ---- */
+
+typedef struct border {
+    iccp_edges edges;
+    const double *places[2];
+    bool bound[2];
+} border;
+
+static icc_status check_border_side(void *argument, size_t side, const iccp_env *env,
+                                    icc_error *err)
+{
+    border *b = argument;
+    (void)err;
+    return iccp_edges_bound(&b->bound[side], &b->edges, b->places[side], env);
+}
+
+/* Lists the edges without a twin, with their triangles on the left. */
+static void list_border(uint32_t *ends, const iccp_corners *corners)
+{
+    size_t n = 0;
+    for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
+        if (corners->twin[c] == ICCP_NO_NEIGHBOUR) {
+            ends[n++] = corners->vertex[iccp_after(c)];
+            ends[n++] = corners->vertex[iccp_before(c)];
+        }
+}
+
+static icc_status check_border(const iccp_plmap *map, size_t n_open, const iccp_env *env)
+{
+    uint32_t *ends = iccp_alloc(&env->memory, n_open, 2 * sizeof *ends);
+    border b = {.edges = {map->n_vertices, n_open, ends}, .places = {map->points, map->images}};
+    if (ends == NULL)
+        return ICC_ERR_MEMORY;
+    list_border(ends, &map->corners);
+    const icc_status status = iccp_side_by_side(env, 2, check_border_side, &b, NULL);
+    iccp_free(&env->memory, ends);
+    return status != ICC_OK || (b.bound[0] && b.bound[1]) ? status : ICC_ERR_BOUNDARY;
 }
 
 /* ---- triangles ---- */
@@ -88,23 +133,39 @@ icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_er
         return iccp_fail(err, ICC_ERR_CERTIFICATE, "the mesh map cannot be certified: %zu faults",
                          n_faults);
     size_t n_rings = 0;
-    const icc_status status = check_outlines(map, &n_rings, env);
+    const icc_status status =
+        map->featured != NULL ? check_border(map, n_open, env) : check_outlines(map, &n_rings, env);
     if (status == ICC_ERR_BOUNDARY)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
                          "the boundary of the mesh or of its image is not simple");
     /* One piece with n_rings - 1 holes. */
-    if (status == ICC_OK && 2 * map->n_vertices + 2 * n_rings != n_triangles + n_open + 4)
+    if (status == ICC_OK && map->featured == NULL &&
+        2 * map->n_vertices + 2 * n_rings != n_triangles + n_open + 4)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
                          "the mesh map cannot be certified: its mesh is "
                          "not in one piece");
     return status;
 }
 
+static icc_status check_rows(const iccp_plmap *map, const icc_domain *target, const iccp_env *env,
+                             icc_error *err)
+{
+    bool follows;
+    const icc_status status = iccp_check_rows(&follows, map, target, env);
+    return status != ICC_OK || follows
+               ? status
+               : iccp_fail(err, ICC_ERR_CERTIFICATE,
+                           "the mesh map cannot be certified: its mesh does not follow the lines "
+                           "of the domains");
+}
+
 icc_status iccp_plane_certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
     const iccp_mesh_map *plane = map->state;
     const iccp_env quiet = iccp_quiet(env);
-    const icc_status status = iccp_plmap_certify(&plane->pl, &quiet, err);
+    icc_status status = iccp_plmap_certify(&plane->pl, &quiet, err);
+    if (status == ICC_OK && plane->pl.featured != NULL)
+        status = check_rows(&plane->pl, map->target_domain, &quiet, err);
     map->info.certified = status == ICC_OK;
     return status;
 }

@@ -362,7 +362,7 @@ static void check_closed(const iccp_cut_polygons polygon[2], const iccp_domain_p
     ck_assert_int_eq(iccp_close_cuts(&map, &overlay, &polygon[0], s, &env), ICC_OK);
     ck_assert_uint_eq(map.corners.n_triangles, overlay.corners.n_triangles);
     if (iccp_plmap_certify(&map, &env, NULL) == ICC_OK) {
-        ck_assert(iccp_plmap_find_vertices(&map, source, vertex));
+        ck_assert(iccp_plmap_find_vertices(&map, vertex));
         for (uint32_t v = 0; v < source->n_vertices; ++v) {
             const size_t at = 2 * (size_t)vertex[v];
             ck_assert_mem_eq(map.points + at, vertex_of(source, v), 2 * sizeof *map.points);
