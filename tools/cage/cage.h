@@ -5,13 +5,14 @@
  * formats of surfaces). In 1 to 6 dimensions it may be the mask of a solid (.npy).
  *
  * Nothing is reversed or sorted, because source and target correspond by index. A ring's last
- * vertex is dropped if it repeats the first. Holes, lines and points inside a ring are kept apart
- * from it.
+ * vertex is dropped if it repeats the first. Holes, regions, lines and points are kept apart from
+ * the outer ring. Without an outer ring, the domain is what the regions cover.
  *
  * Words of this folder
  * - role: source or target. choice: the shape of a file that is read.
- * - feature: a hole, a line or a point inside a cage. tie: a path that says on which side a map
- *   passes features.
+ * - feature: a hole, a region, a line or a point of a cage. tie: a path that says on which side a
+ *   map passes features.
+ * - region: a polygon whose sides are lines. Its inside belongs to the domain.
  * - flattening: replacing curves by edges. welding: joining vertices at one place.
  * - filling: a mesh of the inside, whose boundary is the cage.
  *
@@ -55,13 +56,20 @@ typedef struct cage_choice {
                                 moved, it gets vertices and faces in the same order */
 } cage_choice;
 
-/* A feature inside a cage in the plane. The kinds are those of icc_feature, and ties. */
+/* A feature of a cage in the plane. The kinds are those of icc_feature, and ties. */
 enum { CAGE_TIE = 100 };
+#ifndef ICC_FEATURE_REGION
+#define ICC_FEATURE_REGION 4
+#endif
 
 typedef struct cage_feature {
     int32_t kind;
-    int64_t number; /* for a hole: its number among the holes, from 1; else the number in the
-                       file */
+    int64_t number;  /* of a hole of the outer ring: from 1. For the rings of one of several
+                        outlines: the number of their polygon, from 1. Else the number in the
+                        file */
+    bool of_outline; /* a ring of one of several outlines */
+    size_t ring;     /* of a region or outline, which may have several: its number, from 0 */
+    size_t item;     /* of such a ring: its number among the holes, or the others, from 1. Else 0 */
     size_t n;
     double *points; /* 2 n */
     double radius;  /* of a point; 0 if it has none */
@@ -70,7 +78,8 @@ typedef struct cage_feature {
 
 typedef struct cage {
     size_t dim;      /* coordinates of a vertex; 0 if nothing has been read */
-    size_t n;        /* vertices; a mask has none until its domain is made */
+    size_t n;        /* vertices; a mask has none until its domain is made, and a cage of regions
+                        has none */
     double *points;  /* n * dim */
     size_t *lines;   /* line of each vertex in its file, or 0 if the format has no lines */
     size_t n_facets; /* dim vertices each; 0 means the ring through the vertices */
@@ -85,7 +94,8 @@ typedef struct cage {
                                   wall; their coordinates are nan */
     size_t n_heights;          /* vertices of a polygon that had further coordinates, which were
                                   ignored */
-    size_t n_features;         /* inside a polygon; in the domain's order, except circles */
+    size_t n_features;         /* of a polygon or coverage; in the domain's order, except
+                                  circles */
     cage_feature *features;
     size_t n_ties;
     cage_feature *ties; /* polylines from a vertex to a vertex */
@@ -94,6 +104,7 @@ typedef struct cage {
     size_t n_curves;   /* of SVG, including arcs, in their order */
     uint32_t *curve_edges;
     size_t room_points, room_lines, room_facets, room_facet_lines, room_features, room_curves;
+    size_t room_more;
     uint32_t fan[3]; /* of the face being read */
     /* For the boundary of a mesh: the mesh, and the mesh's numbers of the cage's vertices, then of
      * the holes' vertices. Empty for other cages. */

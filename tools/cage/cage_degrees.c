@@ -43,7 +43,7 @@ static bool all_go_on(const cage *c, problem *wrong)
         feature_text name;
         char of[80];
         snprintf(of, sizeof of, " of %s", feature_name(name, f));
-        good = goes_on(f->n, f->points, f->kind == ICC_FEATURE_HOLE, of, wrong);
+        good = goes_on(f->n, f->points, feature_is_ring(f), of, wrong);
     }
     for (size_t i = 0; i < c->n_more && good; i++)
         good = all_go_on(&c->more[i], wrong);

@@ -9,39 +9,78 @@
 
 static const char *kind_name(int32_t kind)
 {
-    return kind == ICC_FEATURE_HOLE    ? "hole"
-           : kind == ICC_FEATURE_LINE  ? "line"
-           : kind == ICC_FEATURE_POINT ? "point"
-                                       : "tie";
+    return kind == ICC_FEATURE_HOLE     ? "hole"
+           : kind == ICC_FEATURE_REGION ? "region"
+           : kind == ICC_FEATURE_LINE   ? "line"
+           : kind == ICC_FEATURE_POINT  ? "point"
+                                        : "tie";
 }
 
+/* The first outer ring of a region has the region's name. */
 const char *feature_name(feature_text out, const cage_feature *f)
 {
-    snprintf(out, sizeof(feature_text), "%s %lld", kind_name(f->kind), (long long)f->number);
+    const char *whole = f->of_outline ? "polygon" : "region";
+    bool of_whole = f->item > 0 && f->ring > 0 && !(f->kind != ICC_FEATURE_HOLE && f->item == 1);
+    if (of_whole)
+        snprintf(out, sizeof(feature_text), "%s %zu of %s %lld",
+                 f->kind == ICC_FEATURE_HOLE ? "hole" : "part", f->item, whole,
+                 (long long)f->number);
+    else
+        snprintf(out, sizeof(feature_text), "%s %lld",
+                 f->kind == ICC_FEATURE_REGION ? whole : kind_name(f->kind), (long long)f->number);
     return out;
+}
+
+bool feature_is_ring(const cage_feature *f)
+{
+    return f->kind == ICC_FEATURE_HOLE || f->kind == ICC_FEATURE_REGION;
+}
+
+/* True if a ring belongs to a region that has a number in the file. */
+static bool has_region(const cage_feature *f)
+{
+    return f->item > 0 && !f->of_outline;
 }
 
 size_t cage_count(const cage *c, int32_t kind)
 {
     size_t n = 0;
+    for (size_t i = 0; i < c->n_features; i++) {
+        const cage_feature *f = &c->features[i];
+        bool counts = kind == ICC_FEATURE_HOLE     ? !has_region(f)
+                      : kind == ICC_FEATURE_REGION ? has_region(f) && f->ring == 0
+                                                   : true;
+        n += f->kind == kind && counts;
+    }
+    return n;
+}
+
+size_t cage_outlines(const cage *c)
+{
+    size_t n = c->n > 0 ? 1 + c->n_more : 0;
     for (size_t i = 0; i < c->n_features; i++)
-        n += c->features[i].kind == kind;
+        n += c->features[i].of_outline && c->features[i].kind == ICC_FEATURE_REGION;
     return n;
 }
 
 const char *cage_inside_text(char out[120], const cage *c)
 {
-    size_t used = 0, left = 0;
-    for (int32_t kind = ICC_FEATURE_HOLE; kind <= ICC_FEATURE_POINT; kind++)
-        left += cage_count(c, kind) > 0;
+    static const int32_t kinds[] = {ICC_FEATURE_HOLE, ICC_FEATURE_REGION, ICC_FEATURE_LINE,
+                                    ICC_FEATURE_POINT};
+    size_t used = 0, left = 0, counts[4];
+    for (size_t k = 0; k < 4; k++) {
+        bool inside = kinds[k] != ICC_FEATURE_REGION || cage_outlines(c) > 0;
+        counts[k] = inside ? cage_count(c, kinds[k]) : 0;
+        left += counts[k] > 0;
+    }
     out[0] = '\0';
-    for (int32_t kind = ICC_FEATURE_HOLE; kind <= ICC_FEATURE_POINT; kind++) {
-        size_t n = cage_count(c, kind);
+    for (size_t k = 0; k < 4; k++) {
+        size_t n = counts[k];
         if (n == 0)
             continue;
         const char *before = used == 0 ? ", with " : left == 1 ? " and " : ", ";
-        used += (size_t)snprintf(out + used, 120 - used, "%s%zu %s%s", before, n, kind_name(kind),
-                                 n == 1 ? "" : "s");
+        used += (size_t)snprintf(out + used, 120 - used, "%s%zu %s%s", before, n,
+                                 kind_name(kinds[k]), n == 1 ? "" : "s");
         left--;
     }
     if (used > 0)
@@ -64,12 +103,34 @@ void cage_add_feature(cage *c, int32_t kind, int64_t number, size_t first)
     c->n = first;
 }
 
-bool cage_end_ring(cage *c, size_t first, problem *wrong)
+/* Drops a last vertex that repeats the first. */
+static void drop_last(cage *c, size_t first)
 {
     if (c->n >= first + 2) {
         const double *begin = c->points + 2 * first, *last = c->points + 2 * (c->n - 1);
         c->n -= last[0] == begin[0] && last[1] == begin[1];
     }
+}
+
+bool cage_end_region_ring(cage *c, const cage_feature *like, size_t first, problem *wrong)
+{
+    feature_text name;
+    drop_last(c, first);
+    size_t n = c->n - first;
+    if (n < 3)
+        return spoilt(wrong, n > 0 ? c->lines[first] : 0, "%s has %zu %s; a ring has at least 3",
+                      feature_name(name, like), n, n == 1 ? "vertex" : "vertices");
+    cage_add_feature(c, like->kind, like->number, first);
+    cage_feature *f = &c->features[c->n_features - 1];
+    f->of_outline = like->of_outline;
+    f->ring = like->ring;
+    f->item = like->item;
+    return true;
+}
+
+bool cage_end_ring(cage *c, size_t first, problem *wrong)
+{
+    drop_last(c, first);
     if (first == 0)
         return true;
     size_t n = c->n - first, number = c->n_features + 1;
@@ -81,18 +142,65 @@ bool cage_end_ring(cage *c, size_t first, problem *wrong)
     return true;
 }
 
-/* Holes first, ties last. */
-static int rank(int32_t kind)
+/* Adds a ring of outline `number` to the features of a cage. */
+static void add_outline_ring(cage *c, size_t number, size_t ring, size_t n, double *points,
+                             size_t line)
 {
-    return kind == ICC_FEATURE_HOLE ? 0 : kind == CAGE_TIE ? 2 : 1;
+    c->features = grow(c->features, &c->room_features, c->n_features + 1, sizeof *c->features);
+    c->features[c->n_features++] =
+        (cage_feature){.kind = ring == 0 ? ICC_FEATURE_REGION : ICC_FEATURE_HOLE,
+                       .number = (int64_t)number,
+                       .of_outline = true,
+                       .ring = ring,
+                       .item = ring == 0 ? 1 : ring,
+                       .n = n,
+                       .points = points,
+                       .line = line};
+}
+
+/* Takes the rings of a polygon, and adds them to a cage. */
+static void take_outline(cage *c, size_t number, cage *polygon)
+{
+    size_t line = polygon->lines != NULL && polygon->n > 0 ? polygon->lines[0] : 0;
+    add_outline_ring(c, number, 0, polygon->n, polygon->points, line);
+    polygon->points = NULL;
+    for (size_t i = 0; i < polygon->n_features; i++) {
+        cage_feature *f = &polygon->features[i];
+        add_outline_ring(c, number, i + 1, f->n, f->points, f->line);
+        f->points = NULL;
+    }
+}
+
+void cage_join_outlines(cage *c)
+{
+    cage whole = *c;
+    *c = (cage){.dim = whole.dim,
+                .cut = whole.cut,
+                .n_heights = whole.n_heights,
+                .n_curves = whole.n_curves,
+                .curve_edges = whole.curve_edges,
+                .room_curves = whole.room_curves};
+    whole.curve_edges = NULL;
+    take_outline(c, 1, &whole);
+    for (size_t i = 0; i < whole.n_more; i++)
+        take_outline(c, i + 2, &whole.more[i]);
+    cage_free(&whole);
+}
+
+/* Holes and outlines first, ties last. */
+static int rank(const cage_feature *f)
+{
+    return f->kind == CAGE_TIE ? 2 : feature_is_ring(f) && !has_region(f) ? 0 : 1;
 }
 
 static int by_number(const void *a, const void *b)
 {
     const cage_feature *p = a, *q = b;
-    if (rank(p->kind) != rank(q->kind))
-        return rank(p->kind) - rank(q->kind);
-    return p->number < q->number ? -1 : p->number > q->number;
+    if (rank(p) != rank(q))
+        return rank(p) - rank(q);
+    if (p->number != q->number)
+        return p->number < q->number ? -1 : 1;
+    return (p->ring > q->ring) - (p->ring < q->ring);
 }
 
 size_t cage_circles(const cage *c)
@@ -175,7 +283,7 @@ static bool pair_all(size_t n, const cage_feature *source, size_t m, const cage_
 bool features_correspond(const cage *source, const cage *target, problem *wrong)
 {
     size_t n = cage_count(source, ICC_FEATURE_HOLE), m = cage_count(target, ICC_FEATURE_HOLE);
-    if (n != m)
+    if (n != m && source->n > 0)
         return spoilt(wrong, 0, "%zu hole%s, but the source has %zu; they correspond one by one", m,
                       m == 1 ? "" : "s", n);
     return pair_all(source->n_features, source->features, target->n_features, target->features,
@@ -188,7 +296,7 @@ bool features_correspond(const cage *source, const cage *target, problem *wrong)
 /* The name repeats "(a line)" after the number, so that is skipped. */
 static const char *skip_kind(const char *p)
 {
-    for (int32_t kind = ICC_FEATURE_HOLE; kind <= ICC_FEATURE_POINT; kind++) {
+    for (int32_t kind = ICC_FEATURE_HOLE; kind <= ICC_FEATURE_REGION; kind++) {
         char text[16];
         int n = snprintf(text, sizeof text, " (a %s)", kind_name(kind));
         if (strncmp(p, text, (size_t)n) == 0)
@@ -197,42 +305,84 @@ static const char *skip_kind(const char *p)
     return p;
 }
 
-/* Reads "feature 3" or "tie 3" at the beginning of a text, and names it. False if there is
- * something else. */
-static bool take_name(feature_text name, const char **text, const cage *c)
+/* Reads the number of a feature or tie, and names it. False if there is something else. */
+static bool take_number(feature_text name, const char **text, const cage *c, bool tie)
 {
-    const char *const words[] = {"feature ", "tie "};
-    for (size_t k = 0; k < 2; k++) {
-        const char *digits = *text + strlen(words[k]);
-        size_t i = 0, n = 0;
-        if (strncmp(*text, words[k], strlen(words[k])) != 0)
-            continue;
-        for (; digits[n] >= '0' && digits[n] <= '9' && n < 18; n++)
-            i = 10 * i + (size_t)(digits[n] - '0');
-        const cage_feature *f = n == 0          ? NULL
-                                : k == 0        ? cage_find_feature(c, i)
-                                : i < c->n_ties ? &c->ties[i]
-                                                : NULL;
-        if (f == NULL)
-            return false;
-        *text = skip_kind(digits + n);
-        feature_name(name, f);
-        if (k == 0 && i >= c->n_features)
-            snprintf(name, sizeof(feature_text), "circle of point %lld", (long long)f->number);
-        return true;
+    size_t i = 0, n = 0;
+    for (; (*text)[n] >= '0' && (*text)[n] <= '9' && n < 18; n++)
+        i = 10 * i + (size_t)((*text)[n] - '0');
+    const cage_feature *f = n == 0          ? NULL
+                            : !tie          ? cage_find_feature(c, i)
+                            : i < c->n_ties ? &c->ties[i]
+                                            : NULL;
+    if (f == NULL)
+        return false;
+    *text = skip_kind(*text + n);
+    feature_name(name, f);
+    if (!tie && i >= c->n_features)
+        snprintf(name, sizeof(feature_text), "circle of point %lld", (long long)f->number);
+    return true;
+}
+
+/* True if a text begins with a word, which is then skipped. */
+static bool take_word(const char **text, const char *word)
+{
+    bool found = strncmp(*text, word, strlen(word)) == 0;
+    *text += found ? strlen(word) : 0;
+    return found;
+}
+
+/* Adds to a text that has room for `room` bytes. */
+static void append(char *out, size_t room, const char *text, size_t n)
+{
+    size_t used = strlen(out), left = room - 1 - used;
+    n = n < left ? n : left;
+    memcpy(out + used, text, n);
+    out[used + n] = '\0';
+}
+
+/* Names the features of a list such as "3, 4 and 7". */
+static void take_list(char *out, size_t room, const char **text, const cage *c)
+{
+    static const char *const between[] = {", ", " and "};
+    feature_text name;
+    while (take_number(name, text, c, false)) {
+        append(out, room, name, strlen(name));
+        const char *next = *text;
+        bool more = false;
+        for (size_t k = 0; k < 2 && !more; k++)
+            more = take_word(&next, between[k]) && *next >= '0' && *next <= '9';
+        if (!more)
+            return;
+        append(out, room, *text, (size_t)(next - *text));
+        *text = next;
     }
-    return false;
+}
+
+/* Names what a text begins with, if it is a feature, a list of features or a tie. */
+static bool take_names(char *out, size_t room, const char **text, const cage *c)
+{
+    const char *at = *text;
+    size_t used = strlen(out);
+    feature_text name = "";
+    if (take_word(&at, "features "))
+        take_list(out, room, &at, c);
+    else {
+        bool tie = take_word(&at, "tie ");
+        if (tie || take_word(&at, "feature "))
+            take_number(name, &at, c, tie);
+    }
+    append(out, room, name, strlen(name));
+    if (out[used] == '\0')
+        return false;
+    *text = at;
+    return true;
 }
 
 void features_translate(char *out, size_t room, const cage *c, const char *message)
 {
-    size_t used = 0;
     out[0] = '\0';
-    while (*message != '\0' && used + 1 < room) {
-        feature_text name = {*message, '\0'};
-        if (!take_name(name, &message, c))
-            message++;
-        int n = snprintf(out + used, room - used, "%s", name);
-        used = used + (size_t)n < room ? used + (size_t)n : room - 1;
-    }
+    while (*message != '\0' && strlen(out) + 1 < room)
+        if (!take_names(out, room, &message, c))
+            append(out, room, message++, 1);
 }

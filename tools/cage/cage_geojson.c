@@ -2,8 +2,9 @@
  * collection as a sequence (RFC 8142). Rings after the first are holes.
  *
  * In a FeatureCollection the property `role` tells the cage of a feature. "source" and "target" are
- * Polygons, Points and LineStrings. An integer property `feature` pairs the latter two.
- * "source-tie" and "target-tie" are LineStrings with numbers of their own.
+ * Polygons, Points and LineStrings. A whole number as the property `feature` pairs Points,
+ * LineStrings, and Polygons that are regions. "source-tie" and "target-tie" are LineStrings with
+ * numbers of their own.
  *
  * A ring that is not closed is accepted, as in text. */
 #include "cage/cage_readers.h"
@@ -75,21 +76,58 @@ static bool read_rings(cage *out, const json_item *rings, problem *wrong)
     return true;
 }
 
-/* Reads polygons. The first one is the cage, and the others are its further polygons. */
+/* Reads a polygon. The first one is the cage, and the others are its further polygons. */
+static bool read_polygon(cage *out, const json_item *rings, problem *wrong)
+{
+    if (out->n == 0)
+        return read_rings(out, rings, wrong);
+    out->more = grow(out->more, &out->room_more, out->n_more + 1, sizeof *out->more);
+    cage *c = &out->more[out->n_more++];
+    *c = (cage){.dim = 2};
+    bool good = read_rings(c, rings, wrong);
+    out->n_heights += c->n_heights;
+    return good;
+}
+
 static bool read_polygons(cage *out, const json_item *polygons, problem *wrong)
 {
-    const json_item *first = json_first(polygons);
-    if (first == NULL)
-        return spoilt(wrong, 0, "the MultiPolygon has no polygons");
-    out->more = need(json_size(polygons), sizeof *out->more);
-    for (const json_item *x = json_next(first); x != NULL; x = json_next(x)) {
-        cage *c = &out->more[out->n_more++];
-        c->dim = 2;
-        if (!read_rings(c, x, wrong))
-            return false;
-        out->n_heights += c->n_heights;
+    bool good = json_size(polygons) > 0 || spoilt(wrong, 0, "the MultiPolygon has no polygons");
+    for (const json_item *x = json_first(polygons); x != NULL && good; x = json_next(x))
+        good = read_polygon(out, x, wrong);
+    return good;
+}
+
+/* Reads a ring of a region. */
+static bool read_region_ring(cage *out, const json_item *ring, const cage_feature *like,
+                             problem *wrong)
+{
+    feature_text name;
+    char of[64];
+    size_t first = out->n;
+    snprintf(of, sizeof of, " of %s", feature_name(name, like));
+    return read_positions(out, ring, of, wrong) && cage_end_region_ring(out, like, first, wrong);
+}
+
+/* Reads the rings of a region. Each polygon has an outer ring, then holes. An empty MultiPolygon has
+ * none. */
+static bool read_region(cage *out, int64_t number, const json_item *geometry, problem *wrong)
+{
+    const json_item *coordinates = json_get(geometry, "coordinates");
+    bool many = strcmp(type_of(geometry), "MultiPolygon") == 0, good = true;
+    size_t n_rings = 0, n_outer = 0, n_holes = 0;
+    const json_item *polygon = many ? json_first(coordinates) : coordinates;
+    for (; polygon != NULL && good; polygon = many ? json_next(polygon) : NULL) {
+        const json_item *outer = json_first(polygon);
+        for (const json_item *ring = outer; ring != NULL && good; ring = json_next(ring)) {
+            bool hole = ring != outer;
+            cage_feature like = {.kind = hole ? ICC_FEATURE_HOLE : ICC_FEATURE_REGION,
+                                 .number = number,
+                                 .ring = n_rings++,
+                                 .item = hole ? ++n_holes : ++n_outer};
+            good = read_region_ring(out, ring, &like, wrong);
+        }
     }
-    return read_rings(out, first, wrong);
+    return good;
 }
 
 static bool is_same_position(const json_item *a, const json_item *b)
@@ -115,7 +153,7 @@ static bool read_geometry(cage *out, const json_item *geometry, problem *wrong)
     const char *type = type_of(geometry);
     const json_item *coordinates = json_get(geometry, "coordinates");
     if (strcmp(type, "Polygon") == 0)
-        return read_rings(out, coordinates, wrong);
+        return read_polygon(out, coordinates, wrong);
     if (strcmp(type, "MultiPolygon") == 0)
         return read_polygons(out, coordinates, wrong);
     if (strcmp(type, "LineString") == 0 && is_closed(coordinates))
@@ -146,15 +184,17 @@ static const json_item *number_of(const json_item *feature)
 }
 
 /* The kind of a feature with a role: an ICC_FEATURE_*, or the cage. A feature with a number is not
- * the cage. */
+ * the cage. Polygons may have a property of that name that is no number. */
 static int32_t kind_of(const json_item *feature)
 {
     const char *type = type_of(json_get(feature, "geometry"));
-    bool numbered = number_of(feature) != NULL && strstr(type, "Polygon") == NULL;
-    return strcmp(type, "LineString") == 0 ? ICC_FEATURE_LINE
-           : strcmp(type, "Point") == 0    ? ICC_FEATURE_POINT
-           : numbered                      ? IS_UNKNOWN
-                                           : IS_CAGE;
+    const json_item *number = number_of(feature);
+    bool polygon = strcmp(type, "Polygon") == 0 || strcmp(type, "MultiPolygon") == 0;
+    return strcmp(type, "LineString") == 0           ? ICC_FEATURE_LINE
+           : strcmp(type, "Point") == 0              ? ICC_FEATURE_POINT
+           : polygon && json_is(number, JSON_NUMBER) ? ICC_FEATURE_REGION
+           : number != NULL && !polygon              ? IS_UNKNOWN
+                                                     : IS_CAGE;
 }
 
 /* Reads the radius of a Point, if it has one. */
@@ -168,7 +208,7 @@ static bool read_radius(double *out, const json_item *feature, const char *name,
            spoilt(wrong, 0, "the radius of %s must be a number of at least 0", name);
 }
 
-/* Reads a Point, a LineString or a tie, with the number that pairs it. */
+/* Reads a Point, a LineString, a region or a tie, with the number that pairs it. */
 static bool read_feature(cage *out, int32_t kind, const json_item *feature, problem *wrong)
 {
     const double most = 9007199254740992; /* 2^53 */
@@ -187,8 +227,12 @@ static bool read_feature(cage *out, int32_t kind, const json_item *feature, prob
     size_t first = out->n;
     snprintf(of, sizeof of, " of %s", feature_name(name, &named));
     if (kind == IS_UNKNOWN)
-        return spoilt(wrong, 0, "feature %lld is a '%s'; it may be a Point or a LineString",
+        return spoilt(wrong, 0,
+                      "feature %lld is a '%s'; it may be a Point, a LineString or a "
+                      "Polygon",
                       (long long)named.number, quoted(shown, type));
+    if (kind == ICC_FEATURE_REGION)
+        return read_region(out, named.number, json_get(feature, "geometry"), wrong);
     if (kind == CAGE_TIE && strcmp(type, "LineString") != 0)
         return spoilt(wrong, 0, "%s is a '%s'; a tie is a LineString", name, quoted(shown, type));
     if (!(kind == ICC_FEATURE_POINT ? read_position(out, coordinates, 0, of, wrong)
@@ -204,13 +248,16 @@ static bool read_feature(cage *out, int32_t kind, const json_item *feature, prob
     return true;
 }
 
-/* Reads the features inside the cage, and the ties. */
-static bool read_features(cage *out, cage_role role, const json_item *features, problem *wrong)
+/* Reads the features of the cage, and the ties. A cage chosen by its name has no regions, because
+ * it is one of them itself. */
+static bool read_features(cage *out, const cage_choice *choice, const json_item *features,
+                          problem *wrong)
 {
     for (const json_item *x = json_first(features); x != NULL; x = json_next(x)) {
-        bool tie = has_role(x, role, "-tie");
-        int32_t kind = tie ? CAGE_TIE : has_role(x, role, "") ? kind_of(x) : IS_CAGE;
-        if (kind != IS_CAGE && !read_feature(out, kind, x, wrong))
+        bool tie = has_role(x, choice->role, "-tie");
+        int32_t kind = tie ? CAGE_TIE : has_role(x, choice->role, "") ? kind_of(x) : IS_CAGE;
+        bool counts = kind != IS_CAGE && (kind != ICC_FEATURE_REGION || choice->named == NULL);
+        if (counts && !read_feature(out, kind, x, wrong))
             return false;
     }
     return true;
@@ -274,56 +321,59 @@ static bool are_links(const json_item *features)
     return are;
 }
 
-/* Chooses the feature that is the cage. It is the feature with the role that is no line or point,
- * or else the only feature. */
-static const json_item *choose_feature(const geojson *file, cage_role role, problem *wrong)
+/* Reads the polygons with the role that have no number, or else the only feature. If there are
+ * none, the cage is what the regions cover. */
+static bool read_outlines(cage *out, const geojson *file, cage_role role, problem *wrong)
 {
-    const json_item *features = file->features, *chosen = NULL;
-    size_t n_chosen = 0;
-    for (const json_item *x = json_first(features); x != NULL; x = json_next(x))
-        if (has_role(x, role, "") && kind_of(x) == IS_CAGE) {
-            chosen = x;
-            n_chosen++;
-        }
-    if (n_chosen == 0 && json_size(features) == 1)
-        return json_first(features);
-    if (n_chosen == 0 && are_links(features)) {
-        spoilt(
-            wrong, 0,
-            "these are links from one place to another, not an outline; 'libicc fit FILE' makes a "
-            "map from them alone, and --landmarks takes them beside the outlines");
-        return NULL;
+    size_t n_outlines = 0, n_regions = 0;
+    bool good = true;
+    for (const json_item *x = json_first(file->features); x != NULL && good; x = json_next(x)) {
+        int32_t kind = has_role(x, role, "") ? kind_of(x) : IS_UNKNOWN;
+        n_regions += kind == ICC_FEATURE_REGION;
+        n_outlines += kind == IS_CAGE;
+        if (kind == IS_CAGE)
+            good = read_geometry(out, json_get(x, "geometry"), wrong);
     }
-    if (n_chosen != 1) {
-        spoilt(
-            wrong, 0,
-            "%s of the %zu features%s is a Polygon with the property \"role\": \"%s\"; exactly one "
-            "must be",
-            n_chosen == 0 ? "none" : "more than one", json_size(features),
-            file->sequence ? " of the sequence" : "", cage_role_name(role));
-        return NULL;
-    }
-    return chosen;
+    if (good && out->n_more > 0 && n_regions > 0)
+        cage_join_outlines(out);
+    size_t n = json_size(file->features);
+    if (!good || n_outlines > 0 || n_regions > 0)
+        return good;
+    if (n == 1)
+        return read_geometry(out, json_get(json_first(file->features), "geometry"), wrong);
+    if (are_links(file->features))
+        return spoilt(wrong, 0,
+                      "these are links from one place to another, not an outline; 'libicc fit "
+                      "FILE' makes a map from them alone, and --landmarks takes them beside the "
+                      "outlines");
+    return spoilt(wrong, 0,
+                  "none of the %zu features%s is a Polygon with the property \"role\": \"%s\"", n,
+                  file->sequence ? " of the sequence" : "", cage_role_name(role));
+}
+
+/* Reads what a name or the role chooses of a collection. */
+static bool read_collection(cage *out, const cage_choice *choice, const geojson *file,
+                            problem *wrong)
+{
+    if (choice->named == NULL)
+        return read_outlines(out, file, choice->role, wrong);
+    const json_item *chosen = choose_named(file->features, choice->named, wrong);
+    return chosen != NULL && read_geometry(out, json_get(chosen, "geometry"), wrong);
 }
 
 static bool read_file(cage *out, const cage_choice *choice, const geojson *file, problem *wrong)
 {
     const json_item *object = file->object;
-    bool many = file->sequence || strcmp(type_of(object), "FeatureCollection") == 0;
-    if (many) {
-        object = choice->named != NULL ? choose_named(file->features, choice->named, wrong)
-                                       : choose_feature(file, choice->role, wrong);
-        if (object == NULL)
-            return false;
-    } else if (choice->named != NULL) {
-        char shown[64];
+    if (file->sequence || strcmp(type_of(object), "FeatureCollection") == 0)
+        return read_collection(out, choice, file, wrong) &&
+               read_features(out, choice, file->features, wrong);
+    char shown[64];
+    if (choice->named != NULL)
         return spoilt(wrong, 0, "there is no list of features to look for %s in",
                       choice_text(shown, choice->named));
-    }
     if (strcmp(type_of(object), "Feature") == 0)
         object = json_get(object, "geometry");
-    return read_geometry(out, object, wrong) &&
-           (!many || read_features(out, choice->role, file->features, wrong));
+    return read_geometry(out, object, wrong);
 }
 
 /* Files from before 2016 name their reference system if their coordinates are not degrees. */

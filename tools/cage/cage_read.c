@@ -115,7 +115,8 @@ bool cage_read(cage *out, const cage_choice *choice, size_t dim, const char *tex
                (out->more[i].n >= least ||
                 spoilt(wrong, 0, "polygon %zu has %zu %s; it has at least %zu", i + 2,
                        out->more[i].n, out->more[i].n == 1 ? "vertex" : "vertices", least));
-    if (good && out->cells == NULL && out->n < least)
+    bool covered = out->n == 0 && cage_count(out, ICC_FEATURE_REGION) > 0;
+    if (good && out->cells == NULL && out->n < least && !covered)
         good = spoilt(wrong, 0, "%zu %s; a cage has at least %zu", out->n,
                       out->n == 1 ? "vertex" : "vertices", least);
     if (!good)

@@ -77,9 +77,9 @@ static int read_outline(fit_job *f, const args *a)
     job_start(&f->outline, &own);
     int result = job_read_plane(&f->outline, "--outline");
     const cage *c = &f->outline.cages[0];
-    if (result == DONE && c->n_features > cage_count(c, ICC_FEATURE_HOLE))
+    if (result == DONE && (c->n == 0 || c->n_features > cage_count(c, ICC_FEATURE_HOLE)))
         result = failed(a->outline, 0,
-                        "--outline is an outline with holes; it has lines or points "
+                        "--outline is an outline with holes; it has regions, lines or points "
                         "inside");
     return result == DONE ? job_make_domains(&f->outline) : result;
 }

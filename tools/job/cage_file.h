@@ -6,11 +6,13 @@
 
 #include <stdio.h>
 
-/* Writes the positions of a polyline, or of a ring if `closed`, as GeoJSON. */
-void positions_write(FILE *stream, const cage *c, size_t n, const double *points, bool closed);
+/* Writes the outer ring with its holes, and all other features, as GeoJSON features with the cage's
+ * role and the numbers that pair them. */
+void cage_write(FILE *stream, const cage *c, cage_role role);
 
-/* Writes the outline and the holes as a GeoJSON feature with the cage's role. */
-void cage_write_polygon(FILE *stream, const cage *c, cage_role role);
+/* Writes a line, a point or a tie. `first`: no feature comes before it in the list. */
+void cage_write_feature(FILE *stream, const cage *c, const cage_feature *f, cage_role role,
+                        bool first);
 
 /* Writes one cage as text. It writes two, or one to a name in .geojson or .json, as a
  * FeatureCollection that --source accepts. Either may be NULL. DONE, or FAILED with a message on

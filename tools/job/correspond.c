@@ -45,6 +45,15 @@ static void copy_facets(cage *to, const cage *from)
     memcpy(to->facets, from->facets, n * from->dim * sizeof *to->facets);
 }
 
+/* Tells how two cages in the plane differ if one has an outer ring and the other has not. */
+static const char *unlike_text(const cage *source, const cage *target)
+{
+    return cage_outlines(source) > 1   ? "one outline, but the source has several"
+           : cage_outlines(target) > 1 ? "several outlines, but the source has one"
+           : source->n > 0             ? "no outline, but the source has one"
+                                       : "an outline, but the source has only regions";
+}
+
 int correspond(job *j)
 {
     const cage *source = &j->cages[0];
@@ -59,8 +68,11 @@ int correspond(job *j)
     if (source->dim != target->dim)
         return failed(j->args->target, 0, "%zu dimensions, but the source %s has %zu", target->dim,
                       j->args->source, source->dim);
-    if (source->n == 0)
+    if (source->cells != NULL && source->n == 0)
         return DONE;
+    if ((source->n == 0) != (target->n == 0))
+        return failed(job_file(j, 2), 0, "%s%s", job_side(where, j, 2),
+                      unlike_text(source, target));
     if (source->n != target->n)
         return failed(j->args->target, 0,
                       "%s%zu vertices, but the %s %s has %zu; they correspond one by one%s",

@@ -279,6 +279,7 @@ bool report_open(report *r, const job *j)
     if (j->cages[0].n_features > 0) {
         json_open(&r->json, "inside", '{');
         json_count(&r->json, "holes", cage_count(&j->cages[0], ICC_FEATURE_HOLE));
+        json_count(&r->json, "regions", cage_count(&j->cages[0], ICC_FEATURE_REGION));
         json_count(&r->json, "lines", cage_count(&j->cages[0], ICC_FEATURE_LINE));
         json_count(&r->json, "points", cage_count(&j->cages[0], ICC_FEATURE_POINT));
         json_close(&r->json, '}');

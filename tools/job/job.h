@@ -13,7 +13,8 @@
  * - Options: option_table.c lists them, args.c parses, args_check.c says what excludes what,
  *   args_help.c prints.
  * - Cages: job_cages.c reads and makes domains, correspond.h compares, match_cages.h matches,
- *   landmark_file.h. Several polygons: parts.h, nesting.h. Meshes inside: fill.h.
+ *   landmark_file.h. Vertices on sides: t_junctions.h. Several polygons: parts.h, nesting.h. Meshes
+ *   inside: fill.h.
  * - Maps of what is known only in part: fit_cages.h.
  * - Files: output_name.h, call_files.h (nothing overwritten), point_file.h, cage_file.h,
  *   ties_file.h, triangulation.h (axes: axis_order.h). Requirements: require.h. Normals:
@@ -50,6 +51,8 @@ typedef struct job {
     const source_file *source; /* borrowed if several jobs have one source; NULL: it is read */
     cage cages[2];             /* source, target */
     bool both;                 /* both cages are in one file */
+    size_t n_added;            /* vertices added to sides on which others lie: see t_junctions.h */
+    problem one_sided[2];      /* for each cage: a vertex that does so in this cage only, or "" */
     const icc_domain *domains[2];
     icc_domain *made[2]; /* the domains that are not owned by `match` */
     bool has_domains;    /* all parts have domains */

@@ -11,6 +11,7 @@
 #include "job/fit_cages.h"
 #include "job/match_cages.h"
 #include "job/parts.h"
+#include "job/t_junctions.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -169,6 +170,16 @@ static int failed_surface(job *j, size_t side, const icc_error *err)
     return job_failed_with(j, err, hint);
 }
 
+/* Reports a vertex that lies on a side of another feature in one of two cages only. */
+static int failed_on_side(job *j, size_t side)
+{
+    side_text where;
+    const problem *found = &j->one_sided[side];
+    progress_end(&j->bar);
+    return failed(job_file(j, (int)side + 1), found->line, "%s%s",
+                  job_side(where, j, (int)side + 1), found->text);
+}
+
 icc_status job_make_polygon(icc_domain **out, const cage *c, const icc_env *env, icc_error *err)
 {
     icc_feature *features = need(c->n_features, sizeof *features);
@@ -198,6 +209,8 @@ int job_make_domain(job *j, size_t side)
     if (status == ICC_OK)
         return DONE;
     err.side = (int32_t)side + 1;
+    if (err.item == ICC_ITEM_FEATURE && j->one_sided[side].text[0] != '\0')
+        return failed_on_side(j, side);
     bool of_ring = status == ICC_ERR_BOUNDARY && c->dim == 2 && err.item != ICC_ITEM_FEATURE;
     return of_ring                               ? failed_boundary(j, side, &err)
            : c->cells == NULL && c->n_facets > 0 ? failed_surface(j, side, &err)
@@ -210,6 +223,15 @@ static int match(job *j)
     for (size_t side = 0; side < 2 && result == DONE; side++)
         result = job_make_domain(j, side);
     return result == DONE ? match_cages(j) : result;
+}
+
+/* True if features of two cages may share vertices. Boundaries of meshes have no more vertices than
+ * their meshes, and the library has made those of matched cages. */
+static bool may_touch(const job *j)
+{
+    const cage *source = &j->cages[0], *target = &j->cages[1];
+    return source->n_features > 0 && target->dim == 2 && target->n_sliding == 0 &&
+           j->match == NULL && source->n_simplices == 0 && target->n_simplices == 0;
 }
 
 int job_read_cages(job *j)
@@ -236,6 +258,8 @@ int job_read_cages(job *j)
         result = match(j);
     if (result == DONE)
         result = parts_make(j);
+    if (result == DONE && may_touch(j))
+        t_junctions_add(j);
     if (result == DONE && j->cages[1].n_sliding > 0)
         result = fit_cages(j);
     j->seconds_read = seconds_now() - j->started;

@@ -76,6 +76,8 @@ static void take_features(cage *common, const cage *given, const cage *source,
         cage_feature *f = &common->features[i];
         *f = *feature_of(given, origin[known]);
         f->number = source->features[i].number;
+        f->ring = source->features[i].ring;
+        f->item = source->features[i].item;
         f->n = n;
         f->points = need(n, 2 * sizeof *f->points);
         memcpy(f->points, points + 2 * info.first_vertex, n * 2 * sizeof *f->points);

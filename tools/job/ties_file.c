@@ -56,33 +56,14 @@ int ties_check(job *j)
 
 /* ------------------------------------------------------------------ writing */
 
-/* Writes a line, a point or a tie. */
-static void write_feature(FILE *stream, const cage *c, const cage_feature *f, cage_role role)
-{
-    bool is_point = f->kind == ICC_FEATURE_POINT;
-    fprintf(stream,
-            ",\n{\"type\": \"Feature\", \"properties\": {\"role\": \"%s%s\", \"feature\": %lld}, "
-            "\"geometry\": {\"type\": \"%s\", \"coordinates\": ",
-            cage_role_name(role), f->kind == CAGE_TIE ? "-tie" : "", (long long)f->number,
-            is_point ? "Point" : "LineString");
-    if (is_point)
-        fprintf(stream, "[%.17g, %.17g]", f->points[0], cage_given_y(c, f->points));
-    else
-        positions_write(stream, c, f->n, f->points, false);
-    fputs("}}", stream);
-}
-
 static void write_side(FILE *stream, const job *j, cage_role role)
 {
     const cage *c = &j->cages[role - 1];
     cage_feature *ties;
     size_t n = ties_of_map(j->map, j->domains[role - 1], (int)role, &ties);
-    cage_write_polygon(stream, c, role);
-    for (size_t i = 0; i < c->n_features; i++)
-        if (c->features[i].kind != ICC_FEATURE_HOLE)
-            write_feature(stream, c, &c->features[i], role);
+    cage_write(stream, c, role);
     for (size_t i = 0; i < n; i++)
-        write_feature(stream, c, &ties[i], role);
+        cage_write_feature(stream, c, &ties[i], role, false);
     ties_free(n, ties);
 }
 

@@ -4,6 +4,8 @@
 #include "plot/plot.h"
 
 #include "base/allocate.h"
+#include "cage/cage_features.h"
+#include "geo/clip.h"
 #include "job/ties_file.h"
 
 #include <math.h>
@@ -33,27 +35,46 @@ static void write_path(const panel *p, size_t n, const double *points, bool clos
     for (size_t i = 0; i < n; i++)
         panel_place(p, points + 2 * i, path + 2 * i);
     svg_polyline(p->svg, n, path);
-    if (closed)
+    if (closed && n > 0)
         fputc('Z', p->svg);
     free(path);
 }
 
-/* Writes the outer ring and the holes, and with `lines` the lines too. */
-static void write_outline(const panel *p, const cage *c, bool lines)
+/* Writes all rings and lines. */
+static void write_outline(const panel *p, const cage *c)
 {
     write_path(p, c->n, c->points, true);
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        if (f->kind == ICC_FEATURE_HOLE || (f->kind == ICC_FEATURE_LINE && lines))
-            write_path(p, f->n, f->points, f->kind == ICC_FEATURE_HOLE);
+        if (f->kind != ICC_FEATURE_POINT)
+            write_path(p, f->n, f->points, feature_is_ring(f));
     }
 }
 
+/* Writes a ring that turns to the left, or if `hole` to the right. */
+static void write_turned(const panel *p, size_t n, const double *points, bool hole)
+{
+    if ((ring_area(n, points, 2) < 0) == hole) {
+        write_path(p, n, points, true);
+        return;
+    }
+    double *turned = need(n, 2 * sizeof *turned);
+    for (size_t i = 0; i < n; i++)
+        memcpy(turned + 2 * i, points + 2 * (n - 1 - i), 2 * sizeof *turned);
+    write_path(p, n, turned, true);
+    free(turned);
+}
+
+/* A place belongs to the shape if it lies in more outer rings and regions than holes. SVG's
+ * `nonzero` counts in this way, because holes turn the other way round. */
 void plot_clip(const panel *p, const cage *c)
 {
-    fprintf(p->svg, "<clipPath id=\"%s\"><path %sd=\"", p->clip,
-            c->n_features > 0 ? "clip-rule=\"evenodd\" " : "");
-    write_outline(p, c, false);
+    fprintf(p->svg, "<clipPath id=\"%s\"><path d=\"", p->clip);
+    write_turned(p, c->n, c->points, false);
+    for (size_t i = 0; i < c->n_features; i++)
+        if (feature_is_ring(&c->features[i]))
+            write_turned(p, c->features[i].n, c->features[i].points,
+                         c->features[i].kind == ICC_FEATURE_HOLE);
     fputs("\"/></clipPath>\n", p->svg);
 }
 
@@ -68,8 +89,8 @@ static void draw_vertices(const panel *p, size_t n, const double *points, double
     }
 }
 
-/* Draws the ties, dashed, and a pale background of lines and ties, so that they are visible on any
- * pattern. */
+/* Draws the ties, dashed, and a pale background of lines, regions and ties, so that they are visible
+ * on any pattern. */
 static void draw_lines(const panel *p, const cage *c)
 {
     fputs("<path fill=\"none\" stroke=\"white\" stroke-width=\"4\" stroke-linejoin=\"round\" "
@@ -77,9 +98,11 @@ static void draw_lines(const panel *p, const cage *c)
           p->svg);
     for (size_t i = 0; i < c->n_ties; i++)
         write_path(p, c->ties[i].n, c->ties[i].points, false);
-    for (size_t i = 0; i < c->n_features; i++)
-        if (c->features[i].kind == ICC_FEATURE_LINE)
-            write_path(p, c->features[i].n, c->features[i].points, false);
+    for (size_t i = 0; i < c->n_features; i++) {
+        const cage_feature *f = &c->features[i];
+        if (f->kind == ICC_FEATURE_LINE || (f->item > 0 && !f->of_outline))
+            write_path(p, f->n, f->points, feature_is_ring(f));
+    }
     fputs("\"/>\n", p->svg);
     for (size_t i = 0; i < c->n_ties; i++) {
         fputs("<path fill=\"none\" stroke=\"#dc2626\" stroke-width=\"1.8\" "
@@ -114,7 +137,7 @@ static void draw_cage(const panel *p, const cage *c)
         draw_lines(p, c);
     fputs("<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"",
           p->svg);
-    write_outline(p, c, true);
+    write_outline(p, c);
     fputs("\"/>\n", p->svg);
     draw_circles(p, c);
     for (size_t i = 0; i < c->n_features; i++)
