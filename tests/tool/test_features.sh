@@ -191,7 +191,7 @@ run 1 map -s bad -p given.txt
 says 'libicc: bad: target: tie 12 meets'
 collection "$source" "$target" "$point" "$partner" "$ends" "$(feature target-tie LineString '[[10,0],[6,2]]' 12)" "$lines" >bad
 run 1 map -s bad -p given.txt
-says 'as many as features'
+says 'there must be 3, which join all rings, lines and points'
 
 # The map's own ties, in a file that makes a map of the same ties.
 run 0 map -s case.geojson -p given.txt --ties own.geojson

@@ -58,9 +58,6 @@ typedef struct cage_choice {
 
 /* A feature of a cage in the plane. The kinds are those of icc_feature, and ties. */
 enum { CAGE_TIE = 100 };
-#ifndef ICC_FEATURE_REGION
-#define ICC_FEATURE_REGION 4
-#endif
 
 typedef struct cage_feature {
     int32_t kind;

@@ -63,6 +63,20 @@ size_t cage_outlines(const cage *c)
     return n;
 }
 
+const char *cage_rings_text(char out[80], const cage *c)
+{
+    size_t n = c->n, used = 0, n_outlines = cage_outlines(c),
+           n_regions = cage_count(c, ICC_FEATURE_REGION);
+    for (size_t i = 0; i < c->n_features && c->n == 0; i++)
+        n += feature_is_ring(&c->features[i]) ? c->features[i].n : 0;
+    if (c->n == 0 && n_outlines > 0)
+        used = (size_t)snprintf(out, 80, "%zu polygons, ", n_outlines);
+    else if (c->n == 0)
+        used = (size_t)snprintf(out, 80, "%zu region%s, ", n_regions, n_regions == 1 ? "" : "s");
+    snprintf(out + used, 80 - used, "%zu vertices", n);
+    return out;
+}
+
 const char *cage_inside_text(char out[120], const cage *c)
 {
     static const int32_t kinds[] = {ICC_FEATURE_HOLE, ICC_FEATURE_REGION, ICC_FEATURE_LINE,

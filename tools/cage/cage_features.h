@@ -51,6 +51,10 @@ size_t cage_circles(const cage *c);
  * of the cage, it returns the point. NULL if there is none. */
 const cage_feature *cage_find_feature(const cage *c, size_t number);
 
+/* "4 vertices" of the outer ring, or of all rings if there is none. A cage without an outer ring begins
+ * with "3 polygons, " or "48 regions, ". Returns `out`. */
+const char *cage_rings_text(char out[80], const cage *c);
+
 /* ", with 2 holes, 1 line and 3 points inside", or nothing. Without an outer ring the regions are
  * not inside and are left out. Returns `out`. */
 const char *cage_inside_text(char out[120], const cage *c);

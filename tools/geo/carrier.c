@@ -5,6 +5,7 @@
 
 #include "base/allocate.h"
 #include "geo/inner_point.h"
+#include "geo/rim.h"
 
 #include <float.h>
 #include <math.h>
@@ -45,7 +46,7 @@ static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain
     return status;
 }
 
-/* The outer ring has the inside on its left if it is counter-clockwise, and a hole if it is
+/* An outer ring or region has the inside on its left if it is counter-clockwise, and a hole if it is
  * clockwise. */
 static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info *domain,
                       size_t n_facets)
@@ -56,16 +57,50 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
     for (size_t k = 0; k < domain->n_features && n_facets == domain->n_facets; k++) {
         icc_feature_info hole = {.size = sizeof hole};
         icc_domain_get_feature(from, k, &hole);
-        if (hole.kind != ICC_FEATURE_HOLE)
+        bool is_hole = hole.kind == ICC_FEATURE_HOLE;
+        if (!is_hole && hole.kind != ICC_FEATURE_REGION)
             continue;
         for (size_t i = 0; i < hole.n_vertices; i++)
             c->reversed[c->n_facets + hole.first_facet + i] =
-                (hole.orientation > 0) != c->flipped[0];
+                (hole.orientation > 0) == (is_hole != c->flipped[0]);
+        if (!is_hole)
+            continue;
         c->in_holes = grow(c->in_holes, &c->room_holes, 2 * (c->n_holes + 1), sizeof *c->in_holes);
         inner_point(hole.n_vertices, c->vertices[0] + 2 * (c->n_vertices + hole.first_vertex),
                     c->in_holes + 2 * c->n_holes);
         c->n_holes++;
     }
+}
+
+static bool has_regions(const icc_domain *domain, const icc_domain_info *info)
+{
+    bool found = false;
+    for (size_t k = 0; k < info->n_features && !found; k++) {
+        icc_feature_info feature = {.size = sizeof feature};
+        icc_domain_get_feature(domain, k, &feature);
+        found = feature.kind == ICC_FEATURE_REGION;
+    }
+    return found;
+}
+
+/* Keeps only those of the facets just added that have the domain on one side, each once. */
+static icc_status keep_rim(carrier *c, carried *m)
+{
+    rim r;
+    size_t first = c->n_facets;
+    const uint32_t *added = c->facets[0] + 2 * first;
+    icc_status status = rim_find(&r, m->from, m->n_facets, c->vertices[0], added, c->env);
+    for (size_t i = 0; i < r.n && status == ICC_OK; i++) {
+        size_t from = first + r.facets[i], to = first + i;
+        for (size_t side = 0; side < 2; side++)
+            memmove(c->facets[side] + 2 * to, c->facets[side] + 2 * from, 2 * sizeof(uint32_t));
+        c->reversed[to] = c->reversed[from];
+    }
+    m->place = r.place;
+    r.place = NULL;
+    c->n_facets += r.n;
+    rim_free(&r);
+    return status;
 }
 
 static void widen_box(carrier *c, const icc_domain_info *info)
@@ -86,7 +121,9 @@ static size_t count_outer(const icc_domain *domain, const icc_domain_info *info)
     for (size_t k = 0; k < info->n_features; k++) {
         icc_feature_info feature = {.size = sizeof feature};
         icc_domain_get_feature(domain, k, &feature);
-        n -= feature.kind == ICC_FEATURE_HOLE ? feature.n_vertices : 0;
+        n -= feature.kind == ICC_FEATURE_HOLE || feature.kind == ICC_FEATURE_REGION
+                 ? feature.n_vertices
+                 : 0;
     }
     return n;
 }
@@ -114,10 +151,14 @@ icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, c
     widen_box(c, &info[0]);
     c->matched = c->matched && info[0].n_facets == info[1].n_facets;
     c->maps = grow(c->maps, &c->room_maps, c->n_maps + 1, sizeof *c->maps);
-    c->maps[c->n_maps++] = (carried){map, from, (uint32_t)c->n_facets, (uint32_t)n_facets};
+    carried *m = &c->maps[c->n_maps++];
+    *m = (carried){map, from, (uint32_t)c->n_facets, (uint32_t)n_facets, NULL};
+    if (n_facets == info[0].n_facets && c->matched && has_regions(from, &info[0]))
+        status = keep_rim(c, m);
+    else
+        c->n_facets += n_facets;
     c->n_vertices += info[0].n_vertices;
-    c->n_facets += n_facets;
-    return ICC_OK;
+    return status;
 }
 
 /* If sides do not correspond facet by facet, there is no image to snap to. */
@@ -133,6 +174,8 @@ void carrier_free(carrier *c)
         free(c->vertices[side]);
         free(c->facets[side]);
     }
+    for (size_t m = 0; m < c->n_maps; m++)
+        free(c->maps[m].place);
     free(c->maps);
     free(c->reversed);
     free(c->in_holes);
@@ -150,6 +193,22 @@ void carrier_facet_point(const carrier *c, size_t side, uint32_t facet, const do
     }
 }
 
+/* Takes a facet of a map's domain, and its shares, to the carrier's facet in the same place. False if
+ * it has none. */
+static bool find_own(const carried *m, uint32_t *facet, double *shares)
+{
+    uint32_t place = m->place != NULL ? m->place[*facet] : 2 * *facet;
+    if (place == NOT_ON_RIM)
+        return false;
+    if (place % 2 == 1) {
+        double share = shares[0];
+        shares[0] = shares[1];
+        shares[1] = share;
+    }
+    *facet = m->first_facet + place / 2;
+    return true;
+}
+
 icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *facet, double *shares,
                            double *distance)
 {
@@ -164,15 +223,15 @@ icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *face
         uint32_t at;
         double bary[ICC_MAX_DIM], nearest[ICC_MAX_DIM], square = 0;
         status = icc_domain_locate(c->maps[m].from, 1, own, &where, &at, bary, c->env);
-        if (status != ICC_OK || at >= c->maps[m].n_facets)
+        if (status != ICC_OK || at >= c->maps[m].n_facets || !find_own(&c->maps[m], &at, bary))
             continue;
-        carrier_facet_point(c, 0, c->maps[m].first_facet + at, bary, nearest);
+        carrier_facet_point(c, 0, at, bary, nearest);
         for (size_t k = 0; k < c->dim; k++)
             square += (point[k] - nearest[k]) * (point[k] - nearest[k]);
         if (!(sqrt(square) < *distance))
             continue;
         *distance = sqrt(square);
-        *facet = c->maps[m].first_facet + at;
+        *facet = at;
         memcpy(shares, bary, c->dim * sizeof *bary);
     }
     return status;

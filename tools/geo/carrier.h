@@ -11,9 +11,9 @@
 typedef struct carried {
     const icc_map *map;
     const icc_domain *from; /* the domain of the points that are read */
-    uint32_t first_facet;   /* its first n_facets facets are facets first_facet and following of
-                               the carrier */
-    uint32_t n_facets;
+    uint32_t first_facet;   /* facet `first_facet` of the carrier and those after it are its own */
+    uint32_t n_facets;      /* of `from` that count: its first ones */
+    uint32_t *place;        /* NULL if the carrier has them all. Else the place of each: rim.h */
 } carried;
 
 typedef struct carrier {

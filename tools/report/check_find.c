@@ -19,7 +19,8 @@ static int find_defects(check *c)
     for (size_t side = 0; side < 2; side++) {
         icc_error err = {.size = sizeof err, .index = -1, .side = (int32_t)side + 1};
         defects_free(&c->defects[side]);
-        if (c->job.cages[side].dim != 2 || c->job.cages[side].cells != NULL)
+        const cage *at = &c->job.cages[side];
+        if (at->dim != 2 || at->cells != NULL || at->n == 0)
             continue;
         if (defects_find(&c->defects[side], &c->job.cages[side], 0, NULL, &c->job.env, &err) !=
             ICC_OK)

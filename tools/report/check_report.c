@@ -49,16 +49,27 @@ static void print_mask(const cage *mask, const icc_domain_info *info)
         n_inside, info->n_vertices, info->n_facets);
 }
 
-static void print_domain(const cage *c, const icc_domain_info *info)
+/* Regions without an outer ring have no common orientation. */
+static void print_plane(const cage *c, const icc_domain_info *info, size_t n_added)
 {
-    char inside[120];
+    char rings[80], inside[120];
+    printf("%s%s, %sarea %.12g%s", c->n > 0 ? "a simple polygon, " : "", cage_rings_text(rings, c),
+           c->n == 0               ? ""
+           : info->orientation > 0 ? "counter-clockwise, "
+                                   : "clockwise, ",
+           info->measure, cage_inside_text(inside, c));
+    if (n_added > 0)
+        printf("; %zu %s added to sides on which others lie", n_added,
+               n_added == 1 ? "vertex was" : "vertices were");
+    putchar('\n');
+}
+
+static void print_domain(const cage *c, const icc_domain_info *info, size_t n_added)
+{
     if (c->cells != NULL)
         print_mask(c, info);
     else if (info->dim == 2)
-        printf("a simple polygon, %zu vertices, %s, area %.12g%s\n",
-               c->n_features > 0 ? c->n : info->n_vertices,
-               info->orientation > 0 ? "counter-clockwise" : "clockwise", info->measure,
-               cage_inside_text(inside, c));
+        print_plane(c, info, n_added);
     else if (info->dim == 3)
         printf("a closed surface that does not meet itself, %zu vertices, %zu faces, %s, volume "
                "%.12g\n",
@@ -84,7 +95,7 @@ void check_print_domains(const check *c)
             icc_domain_get_info(c->job.domains[side], &info) != ICC_OK)
             continue;
         printf("%s: %s", job_file(&c->job, (int)side + 1), c->job.name);
-        print_domain(&c->job.cages[side], &info);
+        print_domain(&c->job.cages[side], &info, c->job.n_added);
     }
     if (check_domain_only(c) && c->job.cages[0].cells == NULL)
         puts("only the surface was checked: --method foliation or field certifies a chart of its "

@@ -24,12 +24,15 @@ static void print_domain(const info *x)
     const char *const turns[] = {"facing inward", "facing outward", "clockwise",
                                  "counter-clockwise"};
     const cage *c = &x->job.cages[0];
-    char inside[120];
-    printf("cage        %zu vertices, ", c->n_features > 0 ? c->n : d->n_vertices);
+    char rings[80], inside[120];
     if (d->dim != 2)
-        printf("%zu facets, ", d->n_facets);
-    printf("%s, %s %.12g%s\n", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)],
-           measures[d->dim > 3 ? 0 : d->dim], d->measure, cage_inside_text(inside, c));
+        printf("cage        %zu vertices, %zu facets, ", d->n_vertices, d->n_facets);
+    else
+        printf("cage        %s, ", cage_rings_text(rings, c));
+    if (d->dim != 2 || c->n > 0)
+        printf("%s, ", turns[(d->dim == 2 ? 2 : 0) + (d->orientation > 0)]);
+    printf("%s %.12g%s\n", measures[d->dim > 3 ? 0 : d->dim], d->measure,
+           cage_inside_text(inside, c));
     print_point(x, "box         ", d->lower, " to ");
     print_point(x, "", d->upper, "\n");
 }
