@@ -27,6 +27,25 @@ const char *iccp_feature_name(int32_t kind)
                                        : "a region";
 }
 
+const char *iccp_feature_text(const iccp_features *features, uint32_t feature, char *text)
+{
+    if (feature == NONE)
+        return "the outer ring";
+    (void)snprintf(text, ICCP_FEATURE_TEXT, "feature %lu (%s)", (unsigned long)feature,
+                   iccp_feature_name(features->item[feature].kind));
+    return text;
+}
+
+unsigned long iccp_feature_vertex(const iccp_features *features, uint32_t feature, uint32_t vertex)
+{
+    return (unsigned long)(feature != NONE ? vertex - features->item[feature].first : vertex);
+}
+
+unsigned long iccp_feature_facet(const iccp_features *features, uint32_t feature, uint32_t facet)
+{
+    return (unsigned long)(feature != NONE ? facet - features->item[feature].first_facet : facet);
+}
+
 icc_status iccp_features_blame(icc_error *err, const icc_error *own, size_t feature, int32_t kind)
 {
     return iccp_fail_at(err, own->status, ICC_ITEM_FEATURE, (int64_t)feature,
@@ -52,42 +71,20 @@ static const double *corner(const check *c, uint32_t facet, int end)
     return point(c, c->domain->facets[2 * (size_t)facet + (size_t)end]);
 }
 
-/* Returns the number of a vertex in its own feature. */
-static unsigned long vertex_number(const check *c, uint32_t feature, uint32_t v)
-{
-    return (unsigned long)(feature != NONE ? v - feature_of(c, feature)->first : v);
-}
-
-static unsigned long facet_number(const check *c, uint32_t feature, uint32_t facet)
-{
-    return (unsigned long)(feature != NONE ? facet - feature_of(c, feature)->first_facet : facet);
-}
-
 static bool is_point(const check *c, uint32_t feature)
 {
     return feature != NONE && feature_of(c, feature)->kind == ICC_FEATURE_POINT;
-}
-
-enum { NAME_SIZE = 64 };
-
-/* Writes a text such as "feature 3 (a line)". */
-static const char *name_feature(const check *c, uint32_t feature, char *text)
-{
-    if (feature == NONE)
-        return "the outer ring";
-    (void)snprintf(text, NAME_SIZE, "feature %lu (%s)", (unsigned long)feature,
-                   iccp_feature_name(feature_of(c, feature)->kind));
-    return text;
 }
 
 /* Writes "feature 3 (a line), vertex 2," and what is wrong with it. */
 static icc_status fail_vertex(const check *c, uint32_t feature, uint32_t v, const char *what,
                               const char *where)
 {
-    char name[NAME_SIZE];
+    char name[ICCP_FEATURE_TEXT];
     return iccp_fail_at(c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)feature,
-                        "%s, vertex %lu, %s %s", name_feature(c, feature, name),
-                        vertex_number(c, feature, v), what, where);
+                        "%s, vertex %lu, %s %s",
+                        iccp_feature_text(c->domain->features, feature, name),
+                        iccp_feature_vertex(c->domain->features, feature, v), what, where);
 }
 
 static void meeting_point(const check *c, uint32_t e, uint32_t f, double *at)
@@ -126,27 +123,31 @@ static icc_status check_rings(const check *c)
 /* Reports a line that repeats a vertex at once. */
 static icc_status fail_repeated(const check *c, uint32_t feature, const iccp_defect *defect)
 {
-    char name[NAME_SIZE];
+    char name[ICCP_FEATURE_TEXT];
     return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature,
-                        "%s: vertex %lu repeats vertex %lu", name_feature(c, feature, name),
-                        vertex_number(c, feature, defect->b), vertex_number(c, feature, defect->a));
+                        "%s: vertex %lu repeats vertex %lu",
+                        iccp_feature_text(c->domain->features, feature, name),
+                        iccp_feature_vertex(c->domain->features, feature, defect->b),
+                        iccp_feature_vertex(c->domain->features, feature, defect->a));
 }
 
 /* Reports a line that meets itself. */
 static icc_status fail_line(const check *c, uint32_t feature, const iccp_defect *defect)
 {
     const uint32_t *facets = c->domain->facets;
-    char name[NAME_SIZE];
+    char name[ICCP_FEATURE_TEXT];
     double at[2];
-    (void)name_feature(c, feature, name);
+    (void)iccp_feature_text(c->domain->features, feature, name);
     if (facets[2 * (size_t)defect->a + 1] == facets[2 * (size_t)defect->b])
-        return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature,
-                            "%s, vertex %lu: here it runs back over itself", name,
-                            vertex_number(c, feature, facets[2 * (size_t)defect->b]));
+        return iccp_fail_at(
+            c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature,
+            "%s, vertex %lu: here it runs back over itself", name,
+            iccp_feature_vertex(c->domain->features, feature, facets[2 * (size_t)defect->b]));
     meeting_point(c, defect->a, defect->b, at);
     return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature,
                         "%s: edges %lu and %lu %s near (%.9g, %.9g)", name,
-                        facet_number(c, feature, defect->a), facet_number(c, feature, defect->b),
+                        iccp_feature_facet(c->domain->features, feature, defect->a),
+                        iccp_feature_facet(c->domain->features, feature, defect->b),
                         defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
 }
 
@@ -171,7 +172,7 @@ static int32_t place_in_ring(const check *c, uint32_t first_facet, size_t n, con
  * edge. If there is none, names the edges. */
 static icc_status fail_outer(const check *c, uint32_t feature, const iccp_defect *defect)
 {
-    char name[NAME_SIZE];
+    char name[ICCP_FEATURE_TEXT];
     double at[2];
     for (int end = 0; end < 2; ++end) {
         const uint32_t v = c->domain->facets[2 * (size_t)defect->b + (size_t)end];
@@ -183,9 +184,10 @@ static icc_status fail_outer(const check *c, uint32_t feature, const iccp_defect
     meeting_point(c, defect->a, defect->b, at);
     return iccp_fail_at(c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)feature,
                         "%s, edge %lu, %s the outer ring, edge %lu, near (%.9g, %.9g)",
-                        name_feature(c, feature, name), facet_number(c, feature, defect->b),
+                        iccp_feature_text(c->domain->features, feature, name),
+                        iccp_feature_facet(c->domain->features, feature, defect->b),
                         defect->kind == ICC_DEFECT_CROSSING ? "crosses" : "touches",
-                        facet_number(c, NONE, defect->a), at[0], at[1]);
+                        iccp_feature_facet(c->domain->features, NONE, defect->a), at[0], at[1]);
 }
 
 /* Reports two features that meet: a point or edge of one, and one of the other. */
@@ -193,7 +195,7 @@ static icc_status fail_two(const check *c, const iccp_defect *defect, uint32_t f
                            uint32_t second)
 {
     uint32_t facet[2] = {defect->a, defect->b}, feature[2] = {first, second};
-    char names[2][NAME_SIZE];
+    char names[2][ICCP_FEATURE_TEXT];
     double at[2];
     if (first > second) {
         facet[0] = defect->b;
@@ -202,13 +204,15 @@ static icc_status fail_two(const check *c, const iccp_defect *defect, uint32_t f
         feature[1] = first;
     }
     meeting_point(c, facet[0], facet[1], at);
-    return iccp_fail_at(
-        c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature[1],
-        "%s, %s %lu, and %s, %s %lu, %s near (%.9g, %.9g)", name_feature(c, feature[1], names[1]),
-        is_point(c, feature[1]) ? "vertex" : "edge", facet_number(c, feature[1], facet[1]),
-        name_feature(c, feature[0], names[0]), is_point(c, feature[0]) ? "vertex" : "edge",
-        facet_number(c, feature[0], facet[0]),
-        defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
+    return iccp_fail_at(c->err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)feature[1],
+                        "%s, %s %lu, and %s, %s %lu, %s near (%.9g, %.9g)",
+                        iccp_feature_text(c->domain->features, feature[1], names[1]),
+                        is_point(c, feature[1]) ? "vertex" : "edge",
+                        iccp_feature_facet(c->domain->features, feature[1], facet[1]),
+                        iccp_feature_text(c->domain->features, feature[0], names[0]),
+                        is_point(c, feature[0]) ? "vertex" : "edge",
+                        iccp_feature_facet(c->domain->features, feature[0], facet[0]),
+                        defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
 }
 
 static icc_status fail_defect(const check *c, const iccp_defect *defect)
@@ -246,12 +250,13 @@ static icc_status fail_outside(const check *c, uint32_t facet)
 {
     const iccp_features *features = c->domain->features;
     const uint32_t feature = iccp_feature_of_facet(c->domain, facet);
-    char names[2][NAME_SIZE];
+    char names[2][ICCP_FEATURE_TEXT];
     for (int end = 0; end < 2; ++end) {
         const uint32_t v = c->domain->facets[2 * (size_t)facet + (size_t)end];
         const uint32_t hole = hole_around(c, point(c, v));
         if (hole != NONE)
-            return fail_vertex(c, feature, v, "lies in", name_feature(c, hole, names[1]));
+            return fail_vertex(c, feature, v, "lies in",
+                               iccp_feature_text(c->domain->features, hole, names[1]));
         if (place_in_ring(c, 0, features->n_outer, point(c, v)) == ICC_OUTSIDE)
             return fail_vertex(c, feature, v, "lies outside",
                                features->n_outer > 0 ? "the outer ring" : "all regions");
@@ -260,12 +265,13 @@ static icc_status fail_outside(const check *c, uint32_t facet)
     for (int k = 0; k < 2; ++k)
         middle[k] = 0.5 * (corner(c, facet, 0)[k] + corner(c, facet, 1)[k]);
     const uint32_t hole = hole_around(c, middle);
-    return iccp_fail_at(c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)feature,
-                        "%s, edge %lu, lies %s %s", name_feature(c, feature, names[0]),
-                        facet_number(c, feature, facet), hole != NONE ? "in" : "outside",
-                        hole != NONE            ? name_feature(c, hole, names[1])
-                        : features->n_outer > 0 ? "the outer ring"
-                                                : "all regions");
+    return iccp_fail_at(
+        c->err, ICC_ERR_OUTSIDE, ICC_ITEM_FEATURE, (int64_t)feature, "%s, edge %lu, lies %s %s",
+        iccp_feature_text(c->domain->features, feature, names[0]),
+        iccp_feature_facet(c->domain->features, feature, facet), hole != NONE ? "in" : "outside",
+        hole != NONE            ? iccp_feature_text(c->domain->features, hole, names[1])
+        : features->n_outer > 0 ? "the outer ring"
+                                : "all regions");
 }
 
 /* Checks that each side, and each node without sides, lies in the domain or on its rim. Features

@@ -8,6 +8,16 @@
 /* Returns "a hole", "a line", "a point" or "a region". */
 const char *iccp_feature_name(int32_t kind);
 
+/* Room for a text of iccp_feature_text(). */
+enum { ICCP_FEATURE_TEXT = 64 };
+
+/* Writes "feature 3 (a line)". For UINT32_MAX returns "the outer ring" instead. */
+const char *iccp_feature_text(const iccp_features *features, uint32_t feature, char *text);
+
+/* Returns the number of a vertex or facet of the domain in its own feature. */
+unsigned long iccp_feature_vertex(const iccp_features *features, uint32_t feature, uint32_t vertex);
+unsigned long iccp_feature_facet(const iccp_features *features, uint32_t feature, uint32_t facet);
+
 /* Completes the message of a failure with the feature at fault. `own` describes the failure in the
  * numbers of the feature. Returns the status of `own`. */
 icc_status iccp_features_blame(icc_error *err, const icc_error *own, size_t feature, int32_t kind);

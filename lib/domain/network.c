@@ -149,42 +149,37 @@ static void find_sides(build *b, uint32_t *order, uint32_t *work)
     }
 }
 
-static bool is_side(const build *b, uint32_t facet)
-{
-    return b->net->side[facet] == facet &&
-           b->domain->facets[2 * (size_t)facet] != b->domain->facets[2 * (size_t)facet + 1];
-}
-
 /* ---- half-sides ---- */
 
+/* Lists the half-sides that leave each node. Counting backwards, first[v] ends at the beginning. */
 static void list_leaving(build *b)
 {
     const icc_domain *d = b->domain;
     iccp_network *net = b->net;
-    uint32_t n = 0;
+    const uint32_t n = 2 * (uint32_t)d->features->n_places;
     memset(net->first, 0, (d->n_vertices + 1) * sizeof *net->first);
-    for (uint32_t f = 0; f < d->features->n_places; ++f)
-        for (uint32_t h = 2 * f; is_side(b, f) && h <= 2 * f + 1; ++h)
-            ++net->first[net->node[d->facets[h]]];
-    for (size_t v = 0; v < d->n_vertices; ++v)
-        net->first[v] = n += net->first[v];
-    net->first[d->n_vertices] = n;
-    for (uint32_t f = (uint32_t)d->features->n_places; f-- > 0;)
-        for (uint32_t h = 2 * f; is_side(b, f) && h <= 2 * f + 1; ++h)
-            net->leaving[--net->first[net->node[d->facets[h]]]] = h;
+    for (uint32_t h = 0; h < n; ++h)
+        net->first[iccp_network_origin(net, d, h)] += iccp_network_is_side(net, d, h / 2);
+    for (size_t v = 1; v <= d->n_vertices; ++v)
+        net->first[v] += net->first[v - 1];
+    for (uint32_t h = n; h-- > 0;)
+        if (iccp_network_is_side(net, d, h / 2))
+            net->leaving[--net->first[iccp_network_origin(net, d, h)]] = h;
 }
 
-/* Finds a half-side at each vertex. Facets are visited from the last to the first, sides after
- * points. */
+/* Finds the place of each node, and with it of each vertex. Sides win against points, then small
+ * numbers win. */
 static void find_places(build *b)
 {
     const icc_domain *d = b->domain;
     iccp_network *net = b->net;
-    for (int sides = 0; sides < 2; ++sides)
-        for (uint32_t f = (uint32_t)d->features->n_places; f-- > 0;)
-            for (uint32_t h = 2 * f; is_side(b, f) == (sides == 1) && h <= 2 * f + 1; ++h)
-                if (sides == 1 || h % 2 == 0)
-                    net->place[net->node[d->facets[h]]] = h;
+    const uint32_t n = 2 * (uint32_t)d->features->n_places;
+    for (uint32_t h = n; h-- > 0;)
+        if (h % 2 == 0 && !iccp_network_is_side(net, d, h / 2))
+            net->place[iccp_network_origin(net, d, h)] = h;
+    for (uint32_t h = n; h-- > 0;)
+        if (iccp_network_is_side(net, d, h / 2))
+            net->place[iccp_network_origin(net, d, h)] = h;
     for (uint32_t v = 0; v < d->n_vertices; ++v)
         net->place[v] = net->place[net->node[v]];
 }
@@ -307,9 +302,11 @@ static iccp_network *allocate(size_t n, size_t n_places, const iccp_memory *memo
     net->slot = iccp_alloc(memory, n_places, 2 * sizeof *net->slot);
     net->piece = iccp_alloc(memory, n, sizeof *net->piece);
     net->face = iccp_alloc(memory, n_places, 2 * sizeof *net->face);
+    net->around = iccp_alloc(memory, n_places, 2 * sizeof *net->around);
     net->place = iccp_alloc(memory, n, sizeof *net->place);
     if (net->node != NULL && net->side != NULL && net->first != NULL && net->leaving != NULL &&
-        net->slot != NULL && net->piece != NULL && net->face != NULL && net->place != NULL)
+        net->slot != NULL && net->piece != NULL && net->face != NULL && net->around != NULL &&
+        net->place != NULL)
         return net;
     iccp_network_free(net, memory);
     return NULL;
@@ -326,6 +323,7 @@ void iccp_network_free(iccp_network *net, const iccp_memory *memory)
     iccp_free(memory, net->slot);
     iccp_free(memory, net->piece);
     iccp_free(memory, net->face);
+    iccp_free(memory, net->around);
     iccp_free(memory, net->place);
     iccp_free(memory, net);
 }

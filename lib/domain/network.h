@@ -21,6 +21,9 @@
 /* Instead of a face: outside the domain. */
 #define ICCP_NO_FACE UINT32_MAX
 
+/* Instead of a walk: outside everything. */
+#define ICCP_NO_WALK UINT32_MAX
+
 typedef struct iccp_network {
     size_t n_nodes, n_sides, n_rim, n_pieces, n_faces;
     size_t n_junctions; /* nodes with 3 or more sides */
@@ -33,6 +36,9 @@ typedef struct iccp_network {
     /* By half-side: the face on its left, numbered by smallest half-sides, or ICCP_NO_FACE. Both
      * half-sides of the smallest facet of a node without sides have the face around it. */
     uint32_t *face;
+    /* By half-side, like `face`: the walk around the face on its left, also outside the domain. Its
+     * smallest half-side tells the walk. ICCP_NO_WALK: outside everything. */
+    uint32_t *around;
     /* By vertex: a half-side that leaves its node, of the smallest side. For a node without sides,
      * 2 f of its smallest facet. */
     uint32_t *place;
@@ -61,6 +67,14 @@ uint32_t iccp_feature_of_vertex(const iccp_features *features, uint32_t vertex);
 static inline uint32_t iccp_feature_of_facet(const icc_domain *domain, uint32_t facet)
 {
     return iccp_feature_of_vertex(domain->features, domain->facets[2 * (size_t)facet]);
+}
+
+/* Returns true if a facet is the smallest one that joins two nodes. */
+static inline bool iccp_network_is_side(const iccp_network *network, const icc_domain *domain,
+                                        uint32_t facet)
+{
+    return network->side[facet] == facet &&
+           domain->facets[2 * (size_t)facet] != domain->facets[2 * (size_t)facet + 1];
 }
 
 /* Returns the number of sides at a node. */

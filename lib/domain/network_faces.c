@@ -5,14 +5,15 @@
 
 static const uint32_t NONE = UINT32_MAX;
 
+/* A walk is told by its smallest half-side. */
 typedef struct faces {
     iccp_network *net;
     const icc_domain *domain;
     const iccp_graph *graph;
     const int32_t *left;
     const uint32_t *below;
-    uint32_t *walk; /* by half-side */
-    uint32_t *root; /* by walk: the walk that stands for its face, or NONE outside all rings */
+    uint32_t *walk; /* by half-side: its walk */
+    uint32_t *root; /* by walk: the walk around its face */
     uint32_t *stack;
 } faces;
 
@@ -52,35 +53,31 @@ static void find_pieces(const faces *s)
 
 /* ---- walks ---- */
 
-/* Numbers the walks. At first each stands for a face of its own. */
-static uint32_t find_walks(const faces *s)
+/* Finds the walks. At first each goes around a face of its own. */
+static void find_walks(const faces *s)
 {
     const iccp_network *net = s->net;
-    const size_t n = 2 * s->domain->features->n_places;
-    uint32_t n_walks = 0;
-    for (size_t h = 0; h < n; ++h)
-        s->walk[h] = NONE;
-    for (size_t i = 0; i < 2 * net->n_sides; ++i) {
-        uint32_t h = net->leaving[i];
-        if (s->walk[h] != NONE)
+    const uint32_t n = 2 * (uint32_t)s->domain->features->n_places;
+    for (uint32_t h = 0; h < n; ++h)
+        s->walk[h] = s->root[h] = NONE;
+    for (uint32_t h = 0; h < n; ++h) {
+        if (s->walk[h] != NONE || !iccp_network_is_side(net, s->domain, h / 2))
             continue;
-        for (; s->walk[h] == NONE; h = iccp_network_next(net, s->domain, h))
-            s->walk[h] = n_walks;
-        s->root[n_walks] = n_walks;
-        ++n_walks;
+        s->root[h] = h;
+        for (uint32_t g = h; s->walk[g] == NONE; g = iccp_network_next(net, s->domain, g))
+            s->walk[g] = h;
     }
-    return n_walks;
 }
 
-/* Returns the walk that stands for the face around the first node of a piece. */
+/* Returns the walk around the face where the first node of a piece lies. */
 static uint32_t root_around(const faces *s, uint32_t v)
 {
-    return s->below[v] == ICCP_NO_HALF ? NONE : s->root[s->walk[s->below[v]]];
+    return s->below[v] == ICCP_NO_HALF ? ICCP_NO_WALK : s->root[s->walk[s->below[v]]];
 }
 
 /* Joins the outer walk of each piece to the face around it. The sweep visits the first node of the
- * piece below earlier. All sides leave a first node forwards, so the outer walk turns from the
- * lowest to the highest one. Returns false in `seen` for pieces that are still to come. */
+ * piece below earlier. All sides leave a first node forwards, so the outer walk passes it from the
+ * lowest side to the highest one. `seen` is 0 for each piece. */
 static void join_walks(const faces *s, uint8_t *seen)
 {
     const iccp_network *net = s->net;
@@ -96,43 +93,43 @@ static void join_walks(const faces *s, uint8_t *seen)
 
 /* ---- faces ---- */
 
-static uint32_t number_face(const faces *s, uint32_t *number, uint32_t root, int32_t count)
-{
-    if (count <= 0 || root == NONE)
-        return ICCP_NO_FACE;
-    if (number[root] == NONE)
-        number[root] = (uint32_t)s->net->n_faces++;
-    return number[root];
-}
-
 /* Returns the number of rings around places on the left of half-side h. */
 static int32_t count_left(const faces *s, uint32_t h)
 {
     return h % 2 == 0 ? s->left[h / 2] : s->left[h / 2] - s->graph->gain[h / 2];
 }
 
-/* Returns the face around a node without sides. */
-static uint32_t face_around(const faces *s, uint32_t *number, uint32_t v)
-{
-    return s->below[v] == ICCP_NO_HALF
-               ? ICCP_NO_FACE
-               : number_face(s, number, root_around(s, v), count_left(s, s->below[v]));
-}
-
-static void number_faces(const faces *s, uint32_t *number, uint32_t n_walks)
+/* Fills in what is on the left of half-side h: a face within walk `around`, where `count` rings lie
+ * around each place. number[around] is the number of the face, or NONE at first. */
+static void set_face(const faces *s, uint32_t *number, uint32_t h, uint32_t around, int32_t count)
 {
     iccp_network *net = s->net;
-    const size_t n_places = s->domain->features->n_places;
-    for (uint32_t w = 0; w < n_walks; ++w)
-        number[w] = NONE;
-    for (uint32_t h = 0; h < 2 * n_places; ++h)
-        net->face[h] = s->walk[h] == NONE
-                           ? ICCP_NO_FACE
-                           : number_face(s, number, s->root[s->walk[h]], count_left(s, h));
+    net->around[h] = around;
+    net->face[h] = ICCP_NO_FACE;
+    if (around == ICCP_NO_WALK || count <= 0)
+        return;
+    if (number[around] == NONE)
+        number[around] = (uint32_t)net->n_faces++;
+    net->face[h] = number[around];
+}
+
+static void set_faces(const faces *s, uint32_t *number)
+{
+    const iccp_network *net = s->net;
+    const uint32_t n = 2 * (uint32_t)s->domain->features->n_places;
+    for (uint32_t h = 0; h < n; ++h)
+        number[h] = NONE;
+    for (uint32_t h = 0; h < n; ++h)
+        if (s->walk[h] != NONE)
+            set_face(s, number, h, s->root[s->walk[h]], count_left(s, h));
+        else
+            set_face(s, number, h, ICCP_NO_WALK, 0);
     for (size_t i = 0; i < net->n_nodes; ++i) {
-        const uint32_t v = s->graph->nodes[i], h = net->place[v];
-        if (iccp_network_degree(net, v) == 0)
-            net->face[h] = net->face[h + 1] = face_around(s, number, v);
+        const uint32_t v = s->graph->nodes[i], below = s->below[v];
+        if (iccp_network_degree(net, v) > 0 || below == ICCP_NO_HALF)
+            continue;
+        set_face(s, number, net->place[v], root_around(s, v), count_left(s, below));
+        set_face(s, number, net->place[v] + 1, root_around(s, v), count_left(s, below));
     }
 }
 
@@ -145,15 +142,15 @@ icc_status iccp_network_find_faces(iccp_network *net, const icc_domain *domain,
     faces s = {.net = net, .domain = domain, .graph = graph, .left = left, .below = below};
     s.walk = iccp_alloc(memory, n, sizeof *s.walk);
     s.root = iccp_alloc(memory, n, sizeof *s.root);
-    /* Also the numbers of faces, at most one a half-side */
+    /* Later the numbers of faces */
     s.stack = iccp_alloc(memory, n + domain->n_vertices, sizeof *s.stack);
     uint8_t *seen = iccp_alloc_zero(memory, domain->n_vertices, sizeof *seen);
     icc_status status = ICC_ERR_MEMORY;
     if (s.walk != NULL && s.root != NULL && s.stack != NULL && seen != NULL) {
         find_pieces(&s);
-        const uint32_t n_walks = find_walks(&s);
+        find_walks(&s);
         join_walks(&s, seen);
-        number_faces(&s, s.stack, n_walks);
+        set_faces(&s, s.stack);
         status = ICC_OK;
     }
     iccp_free(memory, s.walk);

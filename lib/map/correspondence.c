@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "domain/features_check.h"
+#include "domain/network_same.h"
 
 static const char *turn_of(const icc_domain *domain)
 {
@@ -12,7 +13,7 @@ static const char *turn_of(const icc_domain *domain)
 }
 
 /* Checks that feature i of both domains has one kind and the same number of vertices, and that
- * holes turn the same way. */
+ * rings turn the same way. */
 static icc_status check_features(const iccp_features *source, const iccp_features *target,
                                  icc_error *err)
 {
@@ -67,5 +68,7 @@ icc_status iccp_check_correspondence(const icc_domain *source, const icc_domain 
             status = iccp_fail_at(
                 err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / (size_t)source->dim),
                 "facet %zu does not join the same vertices in the target", i / (size_t)source->dim);
-    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
+    if (status != ICC_OK)
+        return iccp_fail_side(err, status, 2);
+    return source->features != NULL ? iccp_network_same(source, target, err) : ICC_OK;
 }
