@@ -241,8 +241,13 @@ def test_others():
         complain(f"heights of an exact line: {heights}")
     cells = parcels(dice, 10)
     write("in.geojson", [feature("MultiPolygon", [[closed(c)] for c in cells[:5]], name="\u00e9"),
-                         *[feature("Polygon", [closed(c)]) for c in cells[5:]]])
-    is_coverage(carry(0)[0], "a MultiPolygon")
+                         *[feature("Polygon", [closed(c)]) for c in cells[5:]], feature("LineString", closed(cells[0]))])
+    rings, _ = carry(0)
+    is_coverage(rings, "a MultiPolygon")
+    with open("out.geojson") as file:
+        road = [tuple(p) for p in json.load(file)["features"][-1]["geometry"]["coordinates"]]
+    if road[:-1] != rings[0]:
+        complain("a line along the sides of a polygon leaves them")
     write("cages.geojson", [feature("Polygon", [closed(FRAME)], role=role) for role in ("source", "target")])
     rings, report = carry(0, "--map", "curves", "--tolerance", "0.1")
     is_coverage(rings, "a curve map")
