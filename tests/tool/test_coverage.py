@@ -241,7 +241,8 @@ def test_others():
         complain(f"heights of an exact line: {heights}")
     cells = parcels(dice, 10)
     write("in.geojson", [feature("MultiPolygon", [[closed(c)] for c in cells[:5]], name="\u00e9"),
-                         *[feature("Polygon", [closed(c)]) for c in cells[5:]], feature("LineString", closed(cells[0]))])
+                         *[feature("Polygon", [closed(c)]) for c in cells[5:]],
+                         feature("LineString", closed(cells[0]))])
     rings, _ = carry(0)
     is_coverage(rings, "a MultiPolygon")
     with open("out.geojson") as file:
