@@ -73,24 +73,19 @@ icc_status iccp_triangulate_inside(iccp_corners *mesh, const iccp_domain_pair *d
 
 /* ---- pairs of domains ---- */
 
-/* Skips the facets of points, whose two ends are the same vertex. Points may come before lines. */
+/* Lists the sides of the rim, then the others. */
 static void list_walls(iccp_domain_pair *domains)
 {
     const icc_domain *d = domains->domain[0];
-    const iccp_features *f = d->features;
+    const iccp_network *network = domains->network;
     uint32_t *pair = domains->pairs;
-    for (size_t k = 0; k < f->n_places; ++k)
-        if (d->facets[2 * k] != d->facets[2 * k + 1]) {
-            *pair++ = d->facets[2 * k];
-            *pair++ = d->facets[2 * k + 1];
-        }
-    for (size_t v = 0; v < f->n_outer; ++v)
-        domains->component[v] = 0;
-    for (size_t k = 0; k < f->n; ++k)
-        for (size_t v = f->item[k].first; v < f->item[k].first + f->item[k].n; ++v)
-            domains->component[v] = 1 + (uint32_t)k;
-    for (uint32_t v = 0; v < domains->n; ++v)
-        domains->node[v] = v;
+    for (int is_rim = 1; is_rim >= 0; --is_rim)
+        for (uint32_t f = 0; f < d->features->n_places; ++f)
+            if (network->side[f] == f && d->facets[2 * (size_t)f] != d->facets[2 * (size_t)f + 1] &&
+                iccp_network_is_rim(network, f) == (is_rim == 1)) {
+                *pair++ = iccp_network_origin(network, d, 2 * f);
+                *pair++ = iccp_network_origin(network, d, 2 * f + 1);
+            }
 }
 
 /* Joins the components that an edge of the bare triangulation joins. */
@@ -110,21 +105,21 @@ static void find_parts(iccp_domain_pair *domains)
 icc_status iccp_domain_pair_create(iccp_domain_pair *domains, const icc_domain *source,
                                    const icc_domain *target, const iccp_env *env)
 {
-    const iccp_features *features = source->features;
+    const iccp_network *network = iccp_network_of(source);
     *domains = (iccp_domain_pair){.memory = env->memory,
                                   .domain = {source, target},
                                   .n = source->n_vertices,
-                                  .n_components = 1 + features->n,
-                                  .n_walls = features->n_places - features->n_points,
-                                  .n_rim = source->n_facets,
+                                  .n_components = network->n_pieces,
+                                  .n_walls = network->n_sides,
+                                  .n_rim = network->n_rim,
+                                  .network = network,
+                                  .node = network->node,
+                                  .component = network->piece,
                                   .scale = sqrt(source->measure / target->measure)};
-    domains->node = iccp_alloc(&env->memory, domains->n, sizeof *domains->node);
-    domains->component = iccp_alloc(&env->memory, domains->n, sizeof *domains->component);
     domains->part = iccp_alloc(&env->memory, domains->n_components, sizeof *domains->part);
     domains->pairs = iccp_alloc(&env->memory, domains->n_walls, 2 * sizeof *domains->pairs);
     icc_status status = ICC_ERR_MEMORY;
-    if (domains->node != NULL && domains->component != NULL && domains->part != NULL &&
-        domains->pairs != NULL) {
+    if (domains->part != NULL && domains->pairs != NULL) {
         list_walls(domains);
         status = iccp_walls_create(&domains->walls, domains->n, domains->n_walls, domains->pairs,
                                    &env->memory);
@@ -143,8 +138,6 @@ icc_status iccp_domain_pair_create(iccp_domain_pair *domains, const icc_domain *
 void iccp_domain_pair_free(iccp_domain_pair *domains)
 {
     const iccp_memory *memory = &domains->memory;
-    iccp_free(memory, domains->node);
-    iccp_free(memory, domains->component);
     iccp_free(memory, domains->part);
     iccp_free(memory, domains->pairs);
     iccp_walls_free(&domains->walls, memory);

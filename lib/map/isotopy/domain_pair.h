@@ -31,7 +31,7 @@
 #ifndef ICCP_DOMAIN_PAIR_H
 #define ICCP_DOMAIN_PAIR_H
 
-#include "domain/features.h"
+#include "domain/network.h"
 #include "mesh/corners.h"
 
 /* Vertices are those of the domains. Components are numbered as the pieces of the network. */
@@ -40,11 +40,12 @@ typedef struct iccp_domain_pair {
     const icc_domain *domain[2]; /* source, target */
     size_t n;                    /* vertices */
     size_t n_components, n_walls, n_rim;
-    size_t n_cuts;       /* that join the components: one for each but the first of each part */
-    uint32_t *node;      /* of each vertex: the node in the same place */
-    uint32_t *component; /* of each vertex */
-    uint32_t *part;      /* of each component: the smallest component in its part of the domain */
-    uint32_t *pairs;     /* 2 n_walls nodes: the n_rim sides of the rim, then the others */
+    size_t n_cuts; /* that join the components: one for each but the first of each part */
+    const iccp_network *network; /* of the source, which lends the next two arrays */
+    const uint32_t *node;        /* of each vertex: the node in the same place */
+    const uint32_t *component;   /* of each vertex */
+    uint32_t *part;  /* of each component: the smallest component in its part of the domain */
+    uint32_t *pairs; /* 2 n_walls nodes: the n_rim sides of the rim, then the others */
     iccp_walls walls;
     iccp_corners mesh[2]; /* the bare triangulations, constrained Delaunay; twins join triangles
                              across sides inside, not across the rim */
