@@ -370,7 +370,7 @@ static void check_closed(const iccp_cut_polygons polygon[2], const iccp_domain_p
         }
         for (uint32_t c = 0; c < 3 * map.corners.n_triangles; ++c)
             n_pieces += iccp_plmap_is_line(&map, c);
-        ck_assert_uint_eq(n_pieces, 2 * (s->n_walls - source->n_facets));
+        ck_assert_uint_eq(n_pieces, s->n_rim + 2 * (s->n_walls - s->n_rim));
     }
     iccp_plmap_free(&map);
     iccp_overlay_free(&overlay);
