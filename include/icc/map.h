@@ -518,8 +518,9 @@ typedef struct icc_match_info {
     size_t n_vertices;  /**< common vertices of the two domains */
     size_t n_landmarks; /**< common vertices that are landmarks */
     size_t n_joined;    /**< common vertices that are vertices of both given domains */
-    /** cost of the outer rings' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length
-     *  and in space */
+    /** cost of the outlines' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length and in
+     *  space. Of several parts: `cost` to `turn` and `mirrored` are about the one whose pairing by
+     *  shape is least sure */
     double cost;
     /** cost of the best pairing that differs from this one by more than 5 % of the perimeter.
      *  HUGE_VAL if none was found or if there were landmarks */
@@ -563,11 +564,19 @@ typedef struct icc_match_info {
  * are paired vertex by vertex (not by arc length). So the result of a match passes through another
  * match unchanged.
  *
- * *Features.* Each hole, line and point is paired with one of its kind. The outer rings' pairing
- * predicts where each should lie in the target, by mean value coordinates. The assignment minimises
- * the sum of squared distances to these places. Holes and lines are then paired along themselves:
- * holes from where they lie nearest, lines from end to end. The result has the source's features,
- * in its order and directions, and their partners in the target.
+ * *Several outlines.* A domain may have several parts: regions beside one another, or an island in
+ * a hole. Both domains must have as many. Parts are paired by their places in the bounding box of
+ * the whole, by the roots of their shares of the area, and by twice their numbers of holes, at the
+ * least sum of squares. Then outlines are paired part by part. A part whose shape is ambiguous,
+ * such as the round dot of an i, is turned as the whole is turned. The whole should lie upright in
+ * both domains, or landmarks should tell which parts belong together.
+ *
+ * *Features.* Each hole, line and point is paired with one of its kind in the partner of its part.
+ * The pairing of the outline around it predicts where it should lie in the target, by mean value
+ * coordinates. The assignment minimises the sum of squared distances to these places. Holes, closed
+ * lines and regions inside others are then paired along themselves from where they lie nearest,
+ * lines from end to end. The result has the source's features, in its order and directions, and
+ * their partners in the target. Features that meet one another or the outer ring are refused.
  *
  * *Surfaces.* In space the two surfaces get common triangles. Both are drawn on the sphere,
  * one-to-one, and cut by one another there. Both are then simplified together up to
@@ -589,8 +598,8 @@ typedef struct icc_match_info {
  * @param[out] out    the match; owned by the caller, see icc_match_free()
  * @param source      a domain of the plane, possibly with features, or a surface in space without a
  *                    mesh
- * @param target      likewise, of the same dimension. It has as many holes, lines, points, and
- *                    points with a radius
+ * @param target      likewise, of the same dimension. It has as many parts, holes, regions inside
+ *                    others, lines, closed lines, points, and points with a radius
  * @param n_landmarks number of pairs of points that are known, at most 1000; in space 128
  * @param landmarks   n_landmarks * 2 dim coordinates: a point of the source, followed by its
  *                    partner in the target. Or NULL if there are none. In the plane a point on the
@@ -604,14 +613,14 @@ typedef struct icc_match_info {
  * @param err         may be NULL; `index` is the landmark at fault, or as stated below
  * @return ::ICC_OK, or
  * - ::ICC_ERR_AMBIGUOUS if another pairing is nearly as good: give a landmark, or ask for arc
- *   length. Also if two features could change places: `index` is one of the source's, and a
- *   landmark on it decides
+ *   length. Also if two features or parts could change places: `index` is one of the source's, and
+ *   a landmark on it decides
  * - ::ICC_ERR_ARGUMENT if a landmark is more than 2 % of the diameter off an outline, coincides
  *   with another one, comes in a different order on the two outlines, or pairs features of
  *   different kinds
- * - ::ICC_ERR_UNSUPPORTED for another dimension, or a domain with a mesh
- * - ::ICC_ERR_BOUNDARY if the numbers of features differ; or if common vertices cannot be told
- *   apart in doubles, where `index` is one of them
+ * - ::ICC_ERR_UNSUPPORTED for another dimension, a domain with a mesh, or features that meet
+ * - ::ICC_ERR_BOUNDARY if the numbers of parts or features differ; or if common vertices cannot be
+ *   told apart in doubles, where `index` is one of them
  * - ::ICC_ERR_RESOLUTION if the triangles of a surface differ too much in size to be drawn on the
  *   sphere in doubles. Also if landmarks differ so much in position that paths between them take
  *   too many vertices

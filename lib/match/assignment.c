@@ -16,8 +16,9 @@ typedef struct search {
 
 double iccp_spot_distance(const iccp_spot *a, const iccp_spot *b)
 {
-    const double x = a->at[0] - b->at[0], y = a->at[1] - b->at[1], s = a->size - b->size;
-    return x * x + y * y + s * s;
+    const double x = a->at[0] - b->at[0], y = a->at[1] - b->at[1];
+    const double s = a->size - b->size, c = a->count - b->count;
+    return x * x + y * y + s * s + c * c;
 }
 
 /* Finds the shortest alternating path from a's spot i to a spot of b without a partner (Dijkstra on
@@ -104,4 +105,19 @@ icc_status iccp_assign(const iccp_spot *a, iccp_spot *b, size_t n, const iccp_en
     iccp_free(memory, s.row);
     iccp_free(memory, s.is_done);
     return status;
+}
+
+bool iccp_can_exchange(size_t *i, size_t *k, const iccp_spot *a, const iccp_spot *b, size_t n,
+                       double least, double sure)
+{
+    for (*i = 0; *i < n; ++*i)
+        for (*k = 0; *k < *i; ++*k) {
+            const double is =
+                iccp_spot_distance(&a[*i], &b[*i]) + iccp_spot_distance(&a[*k], &b[*k]);
+            const double other =
+                iccp_spot_distance(&a[*i], &b[*k]) + iccp_spot_distance(&a[*k], &b[*i]);
+            if (other + least < sure * (is + least))
+                return true;
+        }
+    return false;
 }

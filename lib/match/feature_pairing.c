@@ -1,6 +1,6 @@
-/* Mean value coordinates of the outer rings predict where each feature should lie in the target and
- * how it is bent. The moved features are paired with those that are nearest on the whole. The
- * pairing of two holes or lines begins at their nearest points. */
+/* Mean value coordinates of the outline around it predict where each feature should lie in the
+ * target and how it is bent. The moved features are paired with those that are nearest on the
+ * whole. The pairing of two holes or lines begins at their nearest points. */
 #include "match/feature_pairing.h"
 
 #include "base/error.h"
@@ -14,13 +14,14 @@
 #include <math.h>
 #include <string.h>
 
-#define NONE UINT32_MAX
+#define NONE ICCP_NO_FEATURE
 
 typedef struct pairing {
     const icc_domain *domain[2];
+    const iccp_paired_parts *paired;
     double *moved; /* the source's vertices, moved to where the target's should be */
     uint32_t *partner;
-    const iccp_parted_landmarks *landmarks;
+    const iccp_sorted_landmarks *landmarks;
     size_t *number; /* of one feature's landmarks */
     double *given, *shares;
     const icc_match_options *options;
@@ -28,7 +29,6 @@ typedef struct pairing {
 
 static void release(pairing *p, const iccp_memory *memory)
 {
-    iccp_free(memory, p->moved);
     iccp_free(memory, p->partner);
     iccp_free(memory, p->number);
     iccp_free(memory, p->given);
@@ -37,40 +37,27 @@ static void release(pairing *p, const iccp_memory *memory)
 
 static icc_status reserve(pairing *p, const iccp_memory *memory, icc_error *err)
 {
-    const size_t n = p->landmarks->n_inside;
-    p->moved = iccp_alloc(memory, p->domain[0]->n_vertices, 2 * sizeof *p->moved);
+    const size_t n = p->landmarks->n;
     p->partner = iccp_alloc(memory, p->domain[0]->features->n, sizeof *p->partner);
     p->number = iccp_alloc(memory, n, sizeof *p->number);
     p->given = iccp_alloc(memory, n, 4 * sizeof *p->given);
     p->shares = iccp_alloc(memory, n + 2, 2 * sizeof *p->shares);
-    return p->moved != NULL && p->partner != NULL && p->number != NULL && p->given != NULL &&
-                   p->shares != NULL
+    return p->partner != NULL && p->number != NULL && p->given != NULL && p->shares != NULL
                ? ICC_OK
                : iccp_fail_memory(err);
 }
 
-/* Moves the inside of the source as the outer rings predict. */
-static void move_inside(pairing *p, const iccp_outline *outer, const iccp_union_outline *common)
+/* Moves the inside of one part of the source as its outline predicts. */
+static void move_inside(const pairing *p, uint32_t part)
 {
     iccp_mean_value at;
-    const icc_domain *const source = p->domain[0];
-    const size_t n_outer = source->features->n_outer;
-    memcpy(p->moved, source->vertices, 2 * source->n_vertices * sizeof *p->moved);
-    iccp_mean_value_sample(&at, common, &outer[0], &outer[1]);
-    iccp_mean_value_move(&at, source->n_vertices - n_outer, p->moved + 2 * n_outer);
-}
-
-/* Collects the landmarks of one feature. Returns their number. */
-static size_t collect(pairing *p, uint32_t feature)
-{
-    size_t n = 0;
-    for (size_t k = 0; k < p->landmarks->n_inside; ++k)
-        if (p->landmarks->inside[k].feature[0] == feature) {
-            p->number[n] = p->landmarks->inside[k].number;
-            memcpy(p->given + 4 * n++, p->landmarks->given + 4 * p->landmarks->inside[k].number,
-                   4 * sizeof *p->given);
-        }
-    return n;
+    const iccp_part_pair *const pair = &p->paired->pair[part];
+    const iccp_domain_parts *const parts = &p->paired->parts[0];
+    const iccp_features *const all = p->domain[0]->features;
+    iccp_mean_value_sample(&at, &pair->common, &pair->outline[0], &pair->outline[1]);
+    for (size_t f = 0; f < all->n; ++f)
+        if (parts->of[f] == part && parts->kind[f] != ICCP_KIND_OUTLINE)
+            iccp_mean_value_move(&at, all->item[f].n, p->moved + 2 * (size_t)all->item[f].first);
 }
 
 /* Returns true if a line's partner, walked from its first vertex, runs in the opposite direction.
@@ -146,7 +133,7 @@ static icc_status pair_outlines(pairing *p, iccp_union_outline *common, iccp_out
 {
     const uint32_t partner = p->partner[feature];
     const iccp_memory *const memory = &env->memory;
-    size_t n = collect(p, feature);
+    size_t n = iccp_landmarks_on(p->landmarks, feature, p->number, p->given);
     icc_status status =
         iccp_outline_create_feature(&outline[0], p->domain[0], feature, false, memory);
     if (status == ICC_OK)
@@ -175,48 +162,74 @@ static icc_status pair_feature(pairing *p, iccp_matched_domains *matched, uint32
 {
     const iccp_feature *const a = &p->domain[0]->features->item[feature];
     const iccp_feature *const b = &p->domain[1]->features->item[p->partner[feature]];
-    icc_status status = ICC_OK;
     if (a->kind == ICC_FEATURE_POINT || a->rim_of != NONE) {
         iccp_matched_domains_add_vertices(matched, p->domain,
                                           (const uint32_t[]){a->first, b->first}, a->n);
-    } else {
-        iccp_union_outline common = {0};
-        iccp_outline outline[2] = {{0}, {0}};
-        status = pair_outlines(p, &common, outline, feature, env, err);
-        if (status == ICC_OK)
-            iccp_matched_domains_add(matched, outline, &common);
-        iccp_union_outline_free(&common, &env->memory);
-        iccp_outline_free(&outline[0], &env->memory);
-        iccp_outline_free(&outline[1], &env->memory);
+        return ICC_OK;
     }
-    iccp_matched_domains_end_feature(matched, a->kind);
+    iccp_union_outline common = {0};
+    iccp_outline outline[2] = {{0}, {0}};
+    const icc_status status = pair_outlines(p, &common, outline, feature, env, err);
+    if (status == ICC_OK)
+        iccp_matched_domains_add(matched, outline, &common);
+    if (status == ICC_OK && p->paired->parts[0].kind[feature] == ICCP_KIND_CLOSED)
+        iccp_matched_domains_close(matched, a->first + a->n - 1);
+    iccp_union_outline_free(&common, &env->memory);
+    iccp_outline_free(&outline[0], &env->memory);
+    iccp_outline_free(&outline[1], &env->memory);
     return status;
 }
 
-icc_status iccp_pair_features(iccp_matched_domains *matched, const iccp_outline *outer,
-                              const iccp_union_outline *common,
-                              const iccp_parted_landmarks *landmarks,
+/* Finds the partners of all features but the outlines of parts. */
+static icc_status find_partners(pairing *p, const iccp_env *env, icc_error *err)
+{
+    const iccp_domain_parts *const parts = p->paired->parts;
+    uint32_t *const part_partner = iccp_alloc(&env->memory, parts[0].n, sizeof *part_partner);
+    if (part_partner == NULL)
+        return iccp_fail_memory(err);
+    for (uint32_t k = 0; k < parts[0].n; ++k) {
+        part_partner[k] = p->paired->pair[k].partner;
+        move_inside(p, k);
+    }
+    for (size_t f = 0; f < p->domain[0]->features->n; ++f)
+        p->partner[f] = NONE;
+    for (size_t k = 0; k < p->landmarks->n; ++k) {
+        const uint32_t *const feature = p->landmarks->item[k].feature;
+        if (feature[0] != NONE && parts[0].kind[feature[0]] != ICCP_KIND_OUTLINE)
+            p->partner[feature[0]] = feature[1];
+    }
+    const icc_status status =
+        iccp_features_partner(p->partner, p->domain[0], p->domain[1], parts, part_partner, p->moved,
+                              iccp_least_sure(p->options), env, err);
+    iccp_free(&env->memory, part_partner);
+    return status;
+}
+
+icc_status iccp_pair_features(iccp_matched_domains *matched, iccp_paired_parts *paired,
+                              const iccp_sorted_landmarks *landmarks,
                               const icc_match_options *options, const iccp_env *env, icc_error *err)
 {
-    pairing p = {
-        .domain = {outer[0].domain, outer[1].domain}, .landmarks = landmarks, .options = options};
+    pairing p = {.domain = {paired->domain[0], paired->domain[1]},
+                 .paired = paired,
+                 .moved = paired->moved,
+                 .landmarks = landmarks,
+                 .options = options};
+    const iccp_domain_parts *const source = &paired->parts[0];
     const size_t n = p.domain[0]->features != NULL ? p.domain[0]->features->n : 0;
     if (n == 0)
         return ICC_OK;
     icc_status status = reserve(&p, &env->memory, err);
-    if (status == ICC_OK) {
-        move_inside(&p, outer, common);
-        for (size_t f = 0; f < n; ++f)
-            p.partner[f] = NONE;
-        for (size_t k = 0; k < landmarks->n_inside; ++k)
-            p.partner[landmarks->inside[k].feature[0]] = landmarks->inside[k].feature[1];
-        status = iccp_features_partner(p.partner, p.domain[0], p.domain[1], p.moved,
-                                       iccp_least_sure(options), env, err);
-    }
+    if (status == ICC_OK)
+        status = find_partners(&p, env, err);
     for (uint32_t f = 0; f < n && status == ICC_OK; ++f) {
         const iccp_env part =
             iccp_part(env, NULL, (double)f / (double)n, (double)(f + 1) / (double)n);
-        status = pair_feature(&p, matched, f, &part, err);
+        const iccp_part_pair *const pair = &paired->pair[source->of[f]];
+        if (source->kind[f] == ICCP_KIND_OUTLINE)
+            iccp_matched_domains_add(matched, pair->outline, &pair->common);
+        else
+            status = pair_feature(&p, matched, f, &part, err);
+        iccp_matched_domains_end_feature(matched, p.domain[0]->features->item[f].kind);
         if (status == ICC_OK)
             status = iccp_explain(err, iccp_progress(&part, NULL, 1));
     }

@@ -9,44 +9,7 @@
 
 #include <math.h>
 
-#define NONE UINT32_MAX
-
-/* Differences of places below this share of the target's diameter mean nothing. */
-static const double noise = 1e-3;
-
-/* Kinds of features. A point with a circle is a kind of its own, which decides the partner of the
- * point. */
-enum { RIM = ICC_FEATURE_REGION + 1, KINDS };
-
-static int32_t kind_of(const iccp_feature *feature)
-{
-    return feature->rim_of != NONE ? RIM : feature->kind;
-}
-
-bool iccp_features_may_pair(const icc_domain *source, uint32_t f, const icc_domain *target,
-                            uint32_t g)
-{
-    return kind_of(&source->features->item[f]) == kind_of(&target->features->item[g]);
-}
-
-icc_status iccp_features_count(const icc_domain *source, const icc_domain *target, icc_error *err)
-{
-    static const char *const name[KINDS] = {[ICC_FEATURE_HOLE] = "holes",
-                                            [ICC_FEATURE_LINE] = "lines inside",
-                                            [ICC_FEATURE_POINT] = "points inside",
-                                            [ICC_FEATURE_REGION] = "regions",
-                                            [RIM] = "points with a radius"};
-    const icc_domain *const domains[2] = {source, target};
-    size_t n[2][KINDS] = {{0}, {0}};
-    for (int e = 0; e < 2; ++e)
-        for (size_t f = 0; domains[e]->features != NULL && f < domains[e]->features->n; ++f)
-            ++n[e][kind_of(&domains[e]->features->item[f])];
-    for (int kind = 0; kind < KINDS; ++kind)
-        if (n[0][kind] != n[1][kind])
-            return iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu %s, the target %zu",
-                             n[0][kind], name[kind], n[1][kind]);
-    return ICC_OK;
-}
+#define NONE ICCP_NO_FEATURE
 
 /* A feature's centre by length, and its mean distance from there. */
 static iccp_spot spot_of(const iccp_feature *f, uint32_t number, const double *vertices)
@@ -74,28 +37,22 @@ static iccp_spot spot_of(const iccp_feature *f, uint32_t number, const double *v
 static icc_status check(const iccp_spot *a, const iccp_spot *b, size_t n, const iccp_feature *all,
                         double least, double sure, icc_error *err)
 {
-    for (size_t i = 0; i < n; ++i)
-        for (size_t k = 0; k < i; ++k) {
-            const double is = iccp_spot_distance(&a[i], &b[i]) + iccp_spot_distance(&a[k], &b[k]);
-            const double other =
-                iccp_spot_distance(&a[i], &b[k]) + iccp_spot_distance(&a[k], &b[i]);
-            if (other + least < sure * (is + least)) {
-                iccp_fail_at(err, ICC_ERR_AMBIGUOUS, ICC_ITEM_FEATURE, (int64_t)a[i].number,
-                             "feature %lu (%s) and feature %lu could go to one another's places "
-                             "almost as well: give a landmark, a point of one of them and its "
-                             "partner's",
-                             (unsigned long)a[i].number, iccp_feature_name(all[a[i].number].kind),
-                             (unsigned long)a[k].number);
-                return iccp_fail_side(err, ICC_ERR_AMBIGUOUS, 1);
-            }
-        }
-    return ICC_OK;
+    size_t i, k;
+    if (!iccp_can_exchange(&i, &k, a, b, n, least, sure))
+        return ICC_OK;
+    iccp_fail_at(err, ICC_ERR_AMBIGUOUS, ICC_ITEM_FEATURE, (int64_t)a[i].number,
+                 "feature %lu (%s) and feature %lu could go to one another's places almost as "
+                 "well: give a landmark, a point of one of them and its partner's",
+                 (unsigned long)a[i].number, iccp_feature_name(all[a[i].number].kind),
+                 (unsigned long)a[k].number);
+    return iccp_fail_side(err, ICC_ERR_AMBIGUOUS, 1);
 }
 
 typedef struct pairs {
     const icc_domain *domain[2];
-    const double *vertices[2]; /* the source's are moved */
-    uint32_t *partner[2];      /* by feature of each side */
+    const iccp_domain_parts *parts; /* of both */
+    const double *vertices[2];      /* the source's are moved */
+    uint32_t *partner[2];           /* by feature of each side */
     iccp_spot *spots[2];
 } pairs;
 
@@ -111,33 +68,34 @@ static void set_rim_partners(pairs *p, bool is_known_by_point)
 {
     const iccp_feature *const a = p->domain[0]->features->item;
     const iccp_feature *const b = p->domain[1]->features->item;
-    const size_t n = p->domain[0]->features->n;
+    const size_t n = p->domain[0]->features->n, n_target = p->domain[1]->features->n;
     for (uint32_t f = 0; f < n; ++f) {
         if (a[f].rim_of == NONE)
             continue;
         if (p->partner[0][f] != NONE)
             set_partners(p, a[f].rim_of, b[p->partner[0][f]].rim_of);
-        for (uint32_t g = 0; g < n && is_known_by_point; ++g)
+        for (uint32_t g = 0; g < n_target && is_known_by_point; ++g)
             if (b[g].rim_of != NONE && p->partner[0][a[f].rim_of] == b[g].rim_of)
                 set_partners(p, f, g);
     }
 }
 
-/* Pairs the features of one kind that have no partner yet. */
-static icc_status pair_kind(pairs *p, int32_t kind, double sure, const iccp_env *env,
-                            icc_error *err)
+/* Pairs the features of one kind in two parts that have no partner yet. */
+static icc_status pair_kind(pairs *p, int32_t kind, const uint32_t part[2], double sure,
+                            const iccp_env *env, icc_error *err)
 {
     size_t n[2] = {0, 0};
     for (int e = 0; e < 2; ++e) {
         const iccp_features *const all = p->domain[e]->features;
         for (uint32_t f = 0; f < all->n; ++f)
-            if (kind_of(&all->item[f]) == kind && p->partner[e][f] == NONE)
+            if (p->parts[e].kind[f] == kind && p->parts[e].of[f] == part[e] &&
+                p->partner[e][f] == NONE)
                 p->spots[e][n[e]++] = spot_of(&all->item[f], f, p->vertices[e]);
     }
     icc_status status = iccp_explain(err, iccp_assign(p->spots[0], p->spots[1], n[0], env));
     const icc_domain *const target = p->domain[1];
-    const double least = noise * iccp_hypot(target->upper[0] - target->lower[0],
-                                            target->upper[1] - target->lower[1]);
+    const double least = iccp_place_noise * iccp_hypot(target->upper[0] - target->lower[0],
+                                                       target->upper[1] - target->lower[1]);
     if (status == ICC_OK)
         status = check(p->spots[0], p->spots[1], n[0], p->domain[0]->features->item, least * least,
                        sure, err);
@@ -146,32 +104,47 @@ static icc_status pair_kind(pairs *p, int32_t kind, double sure, const iccp_env 
     return status;
 }
 
+static icc_status pair_part(pairs *p, const uint32_t part[2], double sure, const iccp_env *env,
+                            icc_error *err)
+{
+    static const int32_t order[] = {ICC_FEATURE_HOLE, ICC_FEATURE_REGION, ICCP_KIND_CLOSED,
+                                    ICC_FEATURE_LINE, ICCP_KIND_RIM,      ICC_FEATURE_POINT};
+    icc_status status = ICC_OK;
+    for (size_t k = 0; k < sizeof order / sizeof *order && status == ICC_OK; ++k) {
+        if (p->parts[0].part[part[0]].count[order[k]] == 0)
+            continue;
+        status = pair_kind(p, order[k], part, sure, env, err);
+        if (status == ICC_OK && order[k] == ICCP_KIND_RIM)
+            set_rim_partners(p, false);
+    }
+    return status;
+}
+
 icc_status iccp_features_partner(uint32_t *partner, const icc_domain *source,
-                                 const icc_domain *target, const double *moved, double sure,
+                                 const icc_domain *target, const iccp_domain_parts *parts,
+                                 const uint32_t *part_partner, const double *moved, double sure,
                                  const iccp_env *env, icc_error *err)
 {
-    static const int32_t order[] = {ICC_FEATURE_HOLE, ICC_FEATURE_REGION, ICC_FEATURE_LINE, RIM,
-                                    ICC_FEATURE_POINT};
     const size_t n = source->features->n;
-    pairs p = {.domain = {source, target}, .vertices = {moved, target->vertices}};
+    const size_t n_target = target->features != NULL ? target->features->n : 0;
+    if (n_target == 0) /* the source then has nothing but an outline */
+        return ICC_OK;
+    pairs p = {.domain = {source, target}, .parts = parts, .vertices = {moved, target->vertices}};
     p.partner[0] = partner;
-    p.partner[1] = iccp_alloc(&env->memory, n, sizeof *partner);
-    p.spots[0] = iccp_alloc(&env->memory, n, 2 * sizeof *p.spots[0]);
+    p.partner[1] = iccp_alloc(&env->memory, n_target, sizeof *partner);
+    p.spots[0] = iccp_alloc(&env->memory, n + n_target, sizeof *p.spots[0]);
     icc_status status = p.partner[1] != NULL && p.spots[0] != NULL ? ICC_OK : iccp_fail_memory(err);
     if (status == ICC_OK) {
         p.spots[1] = p.spots[0] + n;
-        for (uint32_t f = 0; f < n; ++f)
+        for (uint32_t f = 0; f < n_target; ++f)
             p.partner[1][f] = NONE;
         for (uint32_t f = 0; f < n; ++f)
             if (partner[f] != NONE)
                 set_partners(&p, f, partner[f]);
         set_rim_partners(&p, true);
     }
-    for (size_t k = 0; k < sizeof order / sizeof *order && status == ICC_OK; ++k) {
-        status = pair_kind(&p, order[k], sure, env, err);
-        if (status == ICC_OK && order[k] == RIM)
-            set_rim_partners(&p, false);
-    }
+    for (uint32_t k = 0; k < parts[0].n && status == ICC_OK; ++k)
+        status = pair_part(&p, (const uint32_t[]){k, part_partner[k]}, sure, env, err);
     iccp_free(&env->memory, p.partner[1]);
     iccp_free(&env->memory, p.spots[0]);
     return status;

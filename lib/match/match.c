@@ -3,11 +3,12 @@
 
 #include "base/error.h"
 #include "match/feature_pairing.h"
-#include "match/feature_partners.h"
 #include "match/match_apply.h"
-#include "match/outline/landmarks.h"
 #include "match/outline/ring_pairing.h"
+#include "match/part_partners.h"
 #include "match/surfaces.h"
+
+#include <math.h>
 
 void iccp_match_release(icc_match *match)
 {
@@ -45,7 +46,7 @@ static icc_status check_both(const icc_domain *source, const icc_domain *target,
         status = iccp_fail(err, ICC_ERR_UNSUPPORTED,
                            "a domain of %ld dimensions cannot be matched with one of %ld",
                            (long)source->dim, (long)target->dim);
-    return status == ICC_OK ? iccp_features_count(source, target, err) : status;
+    return status;
 }
 
 /* Makes the two domains. */
@@ -62,81 +63,103 @@ static icc_status make(icc_match *match, iccp_matched_domains *matched, const ic
     return status;
 }
 
-static void fill_in(icc_match_info *info, const iccp_elastic_report *report,
-                    const iccp_union_outline *outer, const iccp_matched_domains *matched,
-                    size_t n_landmarks)
+/* Describes the pairing of the part that is least sure, among those that shapes decided. */
+static void fill_in(icc_match_info *info, const iccp_paired_parts *paired,
+                    const iccp_matched_domains *matched, size_t n_landmarks)
 {
     info->dim = 2;
-    info->cost = report->cost;
-    info->second = report->second;
-    info->sure = report->sure;
-    info->turn = 360 * report->turn + 0.0; /* + 0.0 turns -0 into 0 */
-    info->mirrored = report->mirrored >= iccp_clearly_better;
+    info->cost = info->second = info->sure = HUGE_VAL;
+    info->least_slope = HUGE_VAL;
     info->n_vertices = matched->n;
     info->n_landmarks = n_landmarks;
     info->n_joined = matched->n_joined;
-    info->least_slope = outer->least;
-    info->most_slope = outer->most;
+    bool is_first = true;
+    for (size_t k = 0; k < paired->parts[0].n; ++k) {
+        const iccp_part_pair *const pair = &paired->pair[k];
+        const iccp_elastic_report *const report = &pair->report;
+        info->least_slope = fmin(info->least_slope, pair->common.least);
+        info->most_slope = fmax(info->most_slope, pair->common.most);
+        if (pair->is_placed || (!is_first && report->sure >= info->sure))
+            continue;
+        is_first = false;
+        info->cost = report->cost;
+        info->second = report->second;
+        info->sure = report->sure;
+        info->turn = 360 * report->turn + 0.0; /* + 0.0 turns -0 into 0 */
+        info->mirrored = report->mirrored >= iccp_clearly_better;
+    }
 }
 
-/* Pairs the outer rings, then the features. */
-static icc_status run(icc_match *match, iccp_outline *outline, size_t n, const double *given,
+/* Adds the common vertices of both domains: those of the outer ring, then those of the features. */
+static icc_status collect(iccp_matched_domains *matched, iccp_paired_parts *paired,
+                          const iccp_sorted_landmarks *landmarks, const icc_match_options *options,
+                          const iccp_env *env, icc_error *err)
+{
+    const icc_status status =
+        iccp_explain(err, iccp_matched_domains_create(matched, paired->domain[0], paired->domain[1],
+                                                      landmarks->n, &env->memory));
+    if (status != ICC_OK)
+        return status;
+    if (paired->parts[0].part[0].ring == ICCP_NO_FEATURE)
+        iccp_matched_domains_add(matched, paired->pair[0].outline, &paired->pair[0].common);
+    iccp_matched_domains_end_outer(matched);
+    return iccp_pair_features(matched, paired, landmarks, options, env, err);
+}
+
+/* Pairs the outlines of all parts, then the features. */
+static icc_status run(icc_match *match, const icc_domain *const *domains,
+                      const iccp_domain_parts *parts, const iccp_sorted_landmarks *landmarks,
                       const icc_match_options *options, const iccp_env *env, icc_error *err)
 {
-    const iccp_memory *const memory = &env->memory;
-    const icc_domain *const source = outline[0].domain, *const target = outline[1].domain;
-    iccp_env parts[3];
-    iccp_split(parts, 3, (const double[]){20, source->features != NULL ? 10 : 0, 1}, env);
-    parts[0].stage = parts[1].stage = "match";
-    iccp_elastic_report report = {0};
-    iccp_union_outline common = {0};
+    iccp_env share[3];
+    iccp_split(share, 3, (const double[]){20, domains[0]->features != NULL ? 10 : 0, 1}, env);
+    share[0].stage = share[1].stage = "match";
+    iccp_paired_parts paired = {0};
     iccp_matched_domains matched = {0};
-    iccp_parted_landmarks landmarks = {0};
-    double *const shares = iccp_alloc(memory, 2 * n, sizeof *shares);
-    icc_status status = shares == NULL ? iccp_fail_memory(err) : ICC_OK;
+    icc_status status =
+        iccp_pair_parts(&paired, domains, parts, landmarks, options, &share[0], err);
     if (status == ICC_OK)
-        status = iccp_landmarks_part(&landmarks, n, given, source, target, memory, err);
+        status = collect(&matched, &paired, landmarks, options, &share[1], err);
     if (status == ICC_OK)
-        status = iccp_landmarks_place(shares, landmarks.n_ring, landmarks.ring, landmarks.number,
-                                      &outline[0], &outline[1], memory, err);
-    if (status == ICC_OK)
-        status = iccp_pair_rings(&common, &report, &outline[0], &outline[1], landmarks.n_ring,
-                                 shares, options, &parts[0], err);
-    if (status == ICC_OK)
-        status =
-            iccp_explain(err, iccp_matched_domains_create(&matched, source, target, n, memory));
-    if (status == ICC_OK) {
-        iccp_matched_domains_add(&matched, outline, &common);
-        iccp_matched_domains_end_outer(&matched);
-        status =
-            iccp_pair_features(&matched, outline, &common, &landmarks, options, &parts[1], err);
-    }
-    if (status == ICC_OK)
-        status = make(match, &matched, &parts[2], err);
+        status = make(match, &matched, &share[2], err);
     if (status == ICC_OK)
         iccp_match_index(match);
     if (status == ICC_OK)
-        fill_in(&match->info, &report, &common, &matched, n);
-    iccp_matched_domains_free(&matched, memory);
-    iccp_union_outline_free(&common, memory);
-    iccp_parted_landmarks_free(&landmarks, memory);
-    iccp_free(memory, shares);
+        fill_in(&match->info, &paired, &matched, landmarks->n);
+    iccp_matched_domains_free(&matched, &env->memory);
+    iccp_paired_parts_free(&paired, &env->memory);
     return status;
 }
 
-static icc_status match_outlines(icc_match *match, const icc_domain *source,
-                                 const icc_domain *target, size_t n_landmarks,
-                                 const double *landmarks, const icc_match_options *options,
-                                 const iccp_env *env, icc_error *err)
+static icc_status find_parts(iccp_domain_parts *parts, const icc_domain *domain, int32_t side,
+                             const iccp_memory *memory, icc_error *err)
 {
-    iccp_outline outline[2] = {{0}, {0}};
-    icc_status status = iccp_outline_create(&outline[0], source, &env->memory, err);
+    const icc_status status = iccp_domain_parts_check(domain, err);
+    return status == ICC_OK ? iccp_explain(err, iccp_domain_parts_create(parts, domain, memory))
+                            : iccp_fail_side(err, status, side);
+}
+
+static icc_status match_outlines(icc_match *match, const icc_domain *source,
+                                 const icc_domain *target, size_t n_landmarks, const double *given,
+                                 const icc_match_options *options, const iccp_env *env,
+                                 icc_error *err)
+{
+    const icc_domain *const domains[2] = {source, target};
+    const iccp_memory *const memory = &env->memory;
+    iccp_domain_parts parts[2] = {{0}, {0}};
+    iccp_sorted_landmarks landmarks = {0};
+    icc_status status = ICC_OK;
+    for (int e = 0; e < 2 && status == ICC_OK; ++e)
+        status = find_parts(&parts[e], domains[e], e + 1, memory, err);
     if (status == ICC_OK)
-        status = iccp_outline_create(&outline[1], target, &env->memory, err);
+        status = iccp_parts_count(&parts[0], &parts[1], err);
     if (status == ICC_OK)
-        status = run(match, outline, n_landmarks, landmarks, options, env, err);
+        status = iccp_landmarks_sort(&landmarks, n_landmarks, given, domains, parts, memory, err);
+    if (status == ICC_OK)
+        status = run(match, domains, parts, &landmarks, options, env, err);
+    iccp_sorted_landmarks_free(&landmarks, memory);
     for (int e = 0; e < 2; ++e)
-        iccp_outline_free(&outline[e], &env->memory);
+        iccp_domain_parts_free(&parts[e], memory);
     return status;
 }
 

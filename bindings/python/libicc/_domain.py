@@ -32,7 +32,7 @@ from ._errors import blaming, check
 if TYPE_CHECKING:
     from ._types import ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
 
-FEATURES = {"hole": 1, "line": 2, "point": 3}
+FEATURES = {"hole": 1, "line": 2, "point": 3, "region": 4}
 DEFECTS = {"not finite": 1, "repeated": 2, "spike": 3, "crossing": 4, "touch": 5, "flat": 6}
 
 _MAX_DIM = 6
@@ -54,20 +54,22 @@ class Domain(Handle):
 
     Args:
         vertices: float array of shape (n, dim). A polygon without facets may be a closed ring, whose last vertex
-            repeats the first. It may also be a shapely Polygon, LinearRing or MultiPolygon of one part, the same as
-            GeoJSON (a dict), or a GeoSeries or GeoDataFrame with one row. Their holes come before those of ``holes``,
-            and heights are left out. A boolean array is a mask, as in `from_mask`.
+            repeats the first. It may also be a shapely Polygon, LinearRing or MultiPolygon, the same as GeoJSON (a
+            dict), or a GeoSeries or GeoDataFrame with one row. Their holes come before those of ``holes``, and heights
+            are left out. Each polygon of a MultiPolygon of several becomes a region with its holes. A boolean array is a
+            mask, as in `from_mask`. None: no outline, if there are regions.
         facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles (3-D) and so on. In
         2-D you may leave it out for a polygon through the vertices in order.
+        regions: polygons that are part of the shape: further outlines, or islands in holes
         holes: polygons inside a polygon that are not part of the shape; only without ``facets``
         lines: polylines inside it, (n, 2) each; two vertices make a bone
-        points: points inside it, (n, 2). Features are numbered in this order: holes, lines, points. A `Map` of kind
-            "mesh" takes each feature to the one of the same number, vertex by vertex. Other kinds refuse features.
+        points: points inside it, (n, 2). Features are numbered in this order: regions, holes, lines, points. A `Map` of
+            kind "mesh" takes each feature to the one of the same number, vertex by vertex. Other kinds refuse features.
         radii: sizes of points, one for each or the same for all; 0: no size. The circle around a point with a size
             moves along and may grow or shrink, but does not turn. It becomes a line of 16 vertices, which follows all
             other features.
-        features: instead of holes, lines and points: pairs of a kind ("hole", "line" or "point") and vertices, in the
-            order of their numbers. This is the form of another domain's `features`, so you can build a domain again,
+        features: instead of these: pairs of a kind ("region", "hole", "line" or "point") and vertices, in the order of
+            their numbers. This is the form of another domain's `features`, so you can build a domain again,
             including the circles of radii.
         progress, threads: see `libicc.Progress`. There is one thread per processor by default. Results are the same for
             every number
@@ -78,13 +80,14 @@ class Domain(Handle):
 
     _free = "domain_free"
 
-    def __init__(self, vertices: ArrayLike, facets: Optional[ArrayLike] = None, *,
-                 holes: Iterable[ArrayLike] = (), lines: Iterable[ArrayLike] = (),
+    def __init__(self, vertices: Optional[ArrayLike], facets: Optional[ArrayLike] = None, *,
+                 regions: Iterable[ArrayLike] = (), holes: Iterable[ArrayLike] = (), lines: Iterable[ArrayLike] = (),
                  points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
                  features: Optional[Iterable[Tuple[str, ArrayLike]]] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
-        vertices, holes, lines = _plain(vertices), list(holes), list(parts_of(lines) if is_geometry(lines) else lines)
-        has_features = bool(holes or lines or features is not None or np.size(() if points is None else points))
+        vertices = np.empty((0, 2)) if vertices is None else _plain(vertices)
+        regions, holes, lines = list(regions), list(holes), list(parts_of(lines) if is_geometry(lines) else lines)
+        has_features = bool(regions or holes or lines or features is not None or np.size(() if points is None else points))
         if has_features and facets is not None:
             raise ValueError("a boundary of facets has no holes, lines or points inside: these are for polygons in the "
                              "plane, which come without facets")
@@ -93,7 +96,8 @@ class Domain(Handle):
                 raise ValueError("a mask has no holes, lines or points: its cells say what is inside")
             self._take(_of_mask(vertices, progress, threads))
             return
-        own = _features([*_holes_of(vertices), *holes], lines, points)
+        several = _regions_of(vertices)
+        own = several + _features(regions, [*([] if several else _holes_of(vertices)), *holes], lines, points)
         n_points = sum(kind == "point" for kind, _ in own)
         if features is not None:
             if own or radii is not None:
@@ -104,8 +108,9 @@ class Domain(Handle):
         except ValueError:
             raise ValueError(f"radii must be a number or one for each of the {n_points} points") from None
         if own:
-            self._take_features(points_of(_outline(vertices, True), 2, "the vertices of a polygon with features"), own,
-                                sizes, progress, threads)
+            outer = np.empty((0, 2)) if several else _outline(vertices, True)
+            self._take_features(points_of(outer, 2, "the vertices of a polygon with features"), own, sizes, progress,
+                                threads)
             return
         given = getattr(vertices, "shape", None)
         vertices = _outline(vertices) if facets is None else np.ascontiguousarray(vertices, dtype=np.float64)
@@ -207,7 +212,7 @@ class Domain(Handle):
 
     @property
     def features(self) -> List[Tuple[str, Floats]]:
-        """The features inside, in order: "hole", "line" or "point", and its vertices."""
+        """The features, in order: "region", "hole", "line" or "point", and its vertices."""
         vertices, features = self.vertices, []
         for number in range(self._info("domain_get_info", "domain_info").n_features):
             info = new("feature_info")
@@ -309,18 +314,23 @@ def _from_geojson(tree: Any) -> Any:
     if kind == "Feature" and tree.get("geometry"):
         return _from_geojson(tree["geometry"])
     rings = tree.get("coordinates", ())
+    if kind == "MultiPolygon" and len(rings) > 1:
+        return SimpleNamespace(geom_type=kind, geoms=[_from_geojson({"type": "Polygon", "coordinates": polygon})
+                                                      for polygon in rings])
     if kind == "MultiPolygon" and len(rings) == 1:
         kind, rings = "Polygon", rings[0]
     if kind != "Polygon" or len(rings) == 0:
-        raise ValueError(f"this {kind or 'dict'} is no shape; of GeoJSON, a shape is a Polygon, or a Feature with one")
+        raise ValueError(f"this {kind or 'dict'} is no shape; of GeoJSON, a shape is a Polygon or MultiPolygon, or a "
+                         "Feature with one")
     outer, *holes = (SimpleNamespace(coords=ring) for ring in rings)
     return SimpleNamespace(geom_type=kind, exterior=outer, interiors=holes)
 
 
-def _features(holes: Iterable[ArrayLike], lines: Iterable[ArrayLike],
+def _features(regions: Iterable[ArrayLike], holes: Iterable[ArrayLike], lines: Iterable[ArrayLike],
               points: Optional[ArrayLike]) -> List[Tuple[str, Floats]]:
     """The features inside: kinds and vertices."""
-    features = [("hole", points_of(_outline(hole), 2)) for hole in holes]
+    features = [("region", points_of(_outline(region), 2)) for region in regions]
+    features += [("hole", points_of(_outline(hole), 2)) for hole in holes]
     features += [("line", points_of(line, 2)) for line in lines]
     if points is not None and not (isinstance(points, (list, tuple)) and len(points) == 0):
         features += [("point", point.reshape(1, 2)) for point in points_of(points, 2)]
@@ -335,6 +345,15 @@ def _features_in_order(features: Iterable[Tuple[str, ArrayLike]]) -> List[Tuple[
             raise ValueError(f"feature {number} must be one of {', '.join(FEATURES)}, not {kind!r}")
         result.append((kind, points_of(np.reshape(vertices, (1, 2)) if kind == "point" else vertices, 2)))
     return result
+
+
+def _regions_of(shape: Any) -> List[Tuple[str, Floats]]:
+    """The polygons of a geometry of several, as regions with holes."""
+    parts = parts_of(shape) if is_geometry(shape) else []
+    features: List[Tuple[str, Floats]] = []
+    for part in parts if len(parts) > 1 and all(_kind_of(part) == "Polygon" for part in parts) else ():
+        features += _features([part.exterior], part.interiors, (), None)
+    return features
 
 
 def _holes_of(shape: Any) -> List[Any]:

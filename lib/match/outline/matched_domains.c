@@ -87,6 +87,15 @@ void iccp_matched_domains_add_vertices(iccp_matched_domains *matched,
     matched->n_joined += n;
 }
 
+void iccp_matched_domains_close(iccp_matched_domains *matched, uint32_t last)
+{
+    const size_t first = matched->first[matched->n_features], to = matched->n++;
+    matched->origin[0][to] = last;
+    matched->origin[1][to] = matched->origin[1][first];
+    for (int e = 0; e < 2; ++e)
+        memcpy(matched->points[e] + 2 * to, matched->points[e] + 2 * first, 2 * sizeof(double));
+}
+
 void iccp_matched_domains_end_outer(iccp_matched_domains *matched)
 {
     matched->first[0] = (uint32_t)matched->n;

@@ -29,6 +29,10 @@ void iccp_matched_domains_free(iccp_matched_domains *matched, const iccp_memory 
 void iccp_matched_domains_add(iccp_matched_domains *matched, const iccp_outline *outline,
                               const iccp_union_outline *common);
 
+/* Closes a line: repeats the first vertex of the feature being added. `last`: the source's vertex
+ * there. */
+void iccp_matched_domains_close(iccp_matched_domains *matched, uint32_t last);
+
 /* Adds n vertices of both domains that correspond one by one. */
 void iccp_matched_domains_add_vertices(iccp_matched_domains *matched,
                                        const icc_domain *const *domains, const uint32_t *first,

@@ -2,7 +2,7 @@
 #include "match/outline/outline.h"
 
 #include "base/error.h"
-#include "domain/features.h"
+#include "domain/network.h"
 #include "geometry/polygon.h"
 #include "math/elementary.h"
 
@@ -64,17 +64,34 @@ icc_status iccp_outline_create(iccp_outline *outline, const icc_domain *domain,
     return iccp_explain(err, status);
 }
 
+/* Returns true if a ring of the domain's vertices runs clockwise. */
+static bool runs_clockwise(const icc_domain *domain, size_t first, size_t n)
+{
+    const double *const o = domain->vertices + 2 * first;
+    double twice = 0;
+    for (size_t k = 1; k + 1 < n; ++k) {
+        const double *const a = o + 2 * k, *const b = a + 2;
+        twice += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+    }
+    return twice < 0;
+}
+
 icc_status iccp_outline_create_feature(iccp_outline *outline, const icc_domain *domain,
                                        size_t feature, bool is_back, const iccp_memory *memory)
 {
     const iccp_feature *const f = &domain->features->item[feature];
-    const bool is_line = f->kind == ICC_FEATURE_LINE;
-    const uint32_t last = f->n - 1, n = is_line ? 2 * last : f->n;
+    const uint32_t *const node = domain->features->network->node;
+    const bool is_closed =
+        f->kind == ICC_FEATURE_LINE && node[f->first + f->n - 1] == node[f->first];
+    const bool is_line = f->kind == ICC_FEATURE_LINE && !is_closed;
+    const uint32_t last = f->n - 1, n = is_line ? 2 * last : is_closed ? last : f->n;
     const icc_status status = reserve(outline, domain, n, memory);
     if (status != ICC_OK)
         return status;
     outline->end = is_line ? last : 0;
-    outline->is_back = is_line ? is_back : f->orientation < 0;
+    outline->is_back = is_line     ? is_back
+                       : is_closed ? runs_clockwise(domain, f->first, n)
+                                   : f->orientation < 0;
     for (uint32_t k = 0; k < n; ++k) {
         const uint32_t on = is_line && k > last ? n - k : k;
         const uint32_t back = is_line ? last - on : k > 0 ? n - k : 0;
