@@ -123,7 +123,11 @@ static icc_status repair(spline_job *j, const iccp_env *env, icc_error *err)
     iccp_nearest_facts facts = {0};
     icc_fit_info *info = &j->fit->info;
     number_facets(&j->spline.map);
-    const icc_status status = iccp_nearest(&j->spline.map, true, &facts, env, err);
+    icc_status status = iccp_nearest(&j->spline.map, true, &facts, env, NULL);
+    if (status == ICC_ERR_CERTIFICATE)
+        status = iccp_fail(err, status,
+                           "no one-to-one map through all points was found: the targets are too "
+                           "close together or too tangled for doubles");
     info->repair = facts.repair;
     info->n_folded = facts.n_folded;
     info->n_patches = facts.n_patches;

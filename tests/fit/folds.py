@@ -10,6 +10,7 @@ from common import EXACT, Clock, Report, ThinPlate, areas, cross, library, mesh_
 wants("shapely")
 
 CERTIFIED = .99                         # share of the problems that must be certified
+SOON = 20                               # CPU seconds for tangled points, on a slow machine
 GRID = 60                               # the thin plate is asked on so many places in each direction
 # Shares of triangles that fold in a warp: little, and at most. If little folds, this share of the vertices where the
 # warp was one-to-one must not move at all, and half of them by this share of the size at most.
@@ -171,6 +172,27 @@ def points(report, libicc, args):
         report.at_least("share of certified problems", 1 - len(refused) / n_all, CERTIFIED)
 
 
+def tangled(report, libicc, args):
+    """Points that change places at random. With many of them no doubles can tell the ways around each other apart. That
+    must be said soon."""
+    if libicc is None:
+        return
+    for n in (20, 60, 100, 300, 1000) if args.full else (20, 100, 300):
+        rng = np.random.default_rng([args.seed, 23, n])
+        p = rng.uniform(0, 1, (n, 2))
+        with Clock() as clock:
+            try:
+                fit = libicc.fit(p, p[rng.permutation(n)])
+                vertices, images, triangles = mesh_of(fit)
+                report.check(fit.certified and not one_to_one(vertices, images, triangles), f"tangled {n}: certified")
+                outcome = fit.info.repair
+            except libicc.CertificateError as error:
+                report.check("tangled" in str(error), f"tangled {n}: {error}")
+                outcome = "refused"
+        report.say(f"tangled, {n} points: {outcome}, {clock.seconds:.2f} s")
+        report.at_most(f"tangled, {n} points: seconds", clock.seconds, SOON)
+
+
 # ------------------------------------------------------------------- warps
 
 def grid(n):
@@ -321,6 +343,7 @@ def main():
     libicc = None if args.peers else library()
     report = Report()
     points(report, libicc, args)
+    tangled(report, libicc, args)
     warps(report, libicc, args)
     report.end(args.peers)
 

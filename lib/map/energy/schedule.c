@@ -23,6 +23,7 @@ iccp_allowance iccp_allow(size_t n_facets)
 {
     const double work = WORK + WORK_PER_FACET * (double)n_facets;
     return (iccp_allowance){.search.left = work,
+                            .vain = iccp_work_unlimited(),
                             .overlay.left = HUGE_VAL,
                             .improvement.left = work,
                             .relaxing = RELAXING_SHARE * work,

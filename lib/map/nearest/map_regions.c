@@ -53,7 +53,7 @@ static icc_status fill_some(void *argument, size_t begin, size_t end)
     icc_status status = ICC_OK;
     for (size_t k = begin; status == ICC_OK && k < end; ++k)
         status = iccp_refill_create(&f->p->item[f->first + k].refill, &f->rims[k], f->p->map,
-                                    &f->p->given, f->p->place, &f->env);
+                                    &f->p->given, f->p->place, &f->p->vain, &f->env);
     return status;
 }
 
@@ -119,10 +119,13 @@ static icc_status fill_regions(iccp_pieces *p, bool *is_done, const iccp_env *en
     for (size_t k = 0; k < n; ++k)
         iccp_rim_free(&rims[k], &env->memory);
     iccp_free(&env->memory, rims);
+    for (size_t k = first; k < p->n; ++k)
+        iccp_work_charge(&p->vain, p->item[k].refill.vain);
     *is_done = true;
     for (size_t k = 0; status == ICC_OK && k < r->n; ++k)
         if (!is_filled(p, &r->item[k])) {
             *is_done = false;
+            r->is_stuck |= p->vain.left < 0;
             status = iccp_regions_widen(r, k);
         }
     return status;

@@ -19,13 +19,14 @@ typedef struct iccp_pieces {
     uint32_t *place; /* of each vertex inside a region: its place among those that are not held */
     size_t n, room;
     iccp_piece *item;
+    iccp_work vain; /* for attempts that lead to no map */
 } iccp_pieces;
 
 icc_status iccp_pieces_create(iccp_pieces *pieces, iccp_plmap *map, const iccp_env *env);
 void iccp_pieces_free(iccp_pieces *pieces);
 
 /* Lets regions grow until all are sound and mapped anew. If regions.is_stuck afterwards, one region
- * is everything and could not be. */
+ * is everything and could not be, or too much work was in vain. */
 icc_status iccp_pieces_fill(iccp_pieces *pieces, const iccp_env *env);
 
 /* Replaces the regions by the new maps. Triangles that are not replaced come first: *n_kept of

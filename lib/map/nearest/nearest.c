@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "domain/outlines.h"
 #include "icc/fit.h"
+#include "map/energy/schedule.h"
 #include "map/nearest/affine_frame.h"
 #include "map/nearest/approach.h"
 #include "map/nearest/insert_points.h"
@@ -49,6 +50,16 @@ static icc_status check_boundary(const iccp_plmap *map, const iccp_env *env, icc
 
 /* ---- the start ---- */
 
+/* Returns the work that may be in vain: as much as a whole map of the held images may cost. It ends
+ * attempts to map points that are too tangled for doubles. */
+static iccp_work allow_vain_work(const iccp_plmap *map)
+{
+    size_t n_fixed = 0;
+    for (size_t v = 0; v < map->n_vertices; ++v)
+        n_fixed += map->fixed[v] != ICCP_FREE;
+    return (iccp_work){.left = iccp_allow(n_fixed).all};
+}
+
 /* Maps everything anew inside an affine image of the boundary. */
 static icc_status fill_frame(iccp_pieces *pieces, const iccp_env *env)
 {
@@ -56,7 +67,10 @@ static icc_status fill_frame(iccp_pieces *pieces, const iccp_env *env)
     double scale = 1;
     icc_status status = ICC_OK;
     pieces->regions.is_stuck = true;
-    for (int k = 0; status == ICC_OK && pieces->regions.is_stuck && k < WIDENINGS; ++k) {
+    pieces->vain = allow_vain_work(pieces->map);
+    for (int k = 0; status == ICC_OK && pieces->regions.is_stuck && pieces->vain.left > 0 &&
+                    k < WIDENINGS;
+         ++k) {
         iccp_affine_frame_set(&frame, scale, pieces->map);
         iccp_regions_take_all(&pieces->regions);
         status = iccp_pieces_fill(pieces, env);
@@ -86,6 +100,7 @@ static icc_status start(iccp_plmap *map, bool needs_frame, bool boundary_moves, 
     iccp_pieces pieces;
     icc_status status = iccp_pieces_create(&pieces, map, env);
     if (status == ICC_OK && !needs_frame) {
+        pieces.vain = allow_vain_work(map);
         status = iccp_pieces_fill(&pieces, env);
         needs_frame = pieces.regions.is_stuck;
         if (status == ICC_OK && needs_frame && !boundary_moves)
@@ -241,6 +256,6 @@ icc_status iccp_nearest(iccp_plmap *map, bool boundary_moves, iccp_nearest_facts
     if (status == ICC_ERR_CERTIFICATE)
         (void)iccp_fail(err, status,
                         "no one-to-one map was found. Images of held vertices must lie inside that "
-                        "of the boundary, and apart");
+                        "of the boundary, and apart, and must not be too tangled");
     return status;
 }

@@ -109,7 +109,7 @@ static icc_status bring_back(iccp_refill *f, const iccp_rim *rim, const iccp_plm
 }
 
 static icc_status fill_features(iccp_refill *f, const iccp_rim *rim, const iccp_plmap *whole,
-                                const iccp_env *env)
+                                const iccp_work *vain, const iccp_env *env)
 {
     const icc_map_options options = {.size = sizeof options};
     icc_domain *domain[2] = {NULL, NULL};
@@ -120,8 +120,10 @@ static icc_status fill_features(iccp_refill *f, const iccp_rim *rim, const iccp_
     if (status == ICC_OK) {
         iccp_allowance allowance = iccp_allow(domain[0]->features->n_places);
         allowance.overlay.left = allowance.relaxing;
-        status = iccp_feature_start(&f->map, domain[0], domain[1], &options, &allowance.search,
-                                    &allowance.overlay, &report, env, NULL);
+        allowance.vain = *vain;
+        status = iccp_feature_start(&f->map, domain[0], domain[1], &options, &allowance, &report,
+                                    env, NULL);
+        f->vain = allowance.vain.spent;
         iccp_feature_report_free(&report);
     }
     if (status == ICC_OK)
@@ -203,7 +205,8 @@ static icc_status bring_lost_back(iccp_refill *f, const iccp_lost *lost, const i
 }
 
 icc_status iccp_refill_create(iccp_refill *refill, const iccp_rim *rim, const iccp_plmap *whole,
-                              const iccp_finder *given, const uint32_t *place, const iccp_env *env)
+                              const iccp_finder *given, const uint32_t *place,
+                              const iccp_work *vain, const iccp_env *env)
 {
     const iccp_lost lost = {given, rim->vertex + rim->n_points + rim->n_held, place,
                             rim->n_inside - rim->n_held};
@@ -212,7 +215,7 @@ icc_status iccp_refill_create(iccp_refill *refill, const iccp_rim *rim, const ic
     *refill = (iccp_refill){.map.memory = env->memory};
     icc_status status = rim->n_rings == 1 && rim->n_held == 0
                             ? fill_disc(refill, rim, whole, &part[0])
-                            : fill_features(refill, rim, whole, &part[0]);
+                            : fill_features(refill, rim, whole, vain, &part[0]);
     if (status == ICC_OK && !has_rim(refill, rim))
         status = ICC_ERR_CERTIFICATE;
     if (status == ICC_OK)
@@ -227,5 +230,5 @@ void iccp_refill_free(iccp_refill *refill)
     const iccp_memory memory = refill->map.memory;
     iccp_plmap_free(&refill->map);
     iccp_free(&memory, refill->vertex);
-    *refill = (iccp_refill){.map.memory = memory};
+    *refill = (iccp_refill){.map.memory = memory, .vain = refill->vain};
 }

@@ -20,8 +20,9 @@
 #include <string.h>
 
 /* TREES: trees that are tried at most. COST: steps that a tree costs for each triangle of its
- * overlay. */
-enum { TREES = 30, COST = 1 };
+ * overlay. CROSSING: steps that each crossing of a cut and an edge costs, if the tree leads to no
+ * map: about 40 searches come by. */
+enum { TREES = 30, COST = 1, CROSSING = 40 };
 
 /* No other tree is tried after one with energy GOOD or less. One with energy FAIR is enough if its
  * cuts are at most NEARLY_STRAIGHT times as long as straight ones. One whose cuts are straight on
@@ -124,21 +125,59 @@ static double energy_of(const iccp_plmap *map)
     return iccp_plmap_energy(map);
 }
 
+/* ---- the limit of trees that lead to no map ---- */
+
+/* Stops the search for cuts as soon as their crossings cost too much. Cuts around tangled features
+ * can have any number of crossings, far more than doubles could tell apart. */
+typedef struct watch {
+    const iccp_cutter *cutter;
+    double most; /* crossings */
+    const iccp_env *env;
+    const char *stage;
+    bool is_over;
+} watch;
+
+static double count_crossings(const iccp_cutter *c)
+{
+    return (double)(c->search[0].n_vertices + c->search[1].n_vertices - 2 * c->domains->n);
+}
+
+static int32_t look(void *user, const char *stage, double share)
+{
+    watch *w = user;
+    w->is_over = count_crossings(w->cutter) > w->most;
+    return w->is_over || iccp_progress(w->env, stage, share) != ICC_OK;
+}
+
+/* Finds the cuts of a tree. Returns ICC_ERR_RESOLUTION if they cross too many edges. */
+static icc_status find_cuts(iccp_cuts *cuts, iccp_cutter *cutter, uint64_t tree,
+                            const iccp_work *vain, const iccp_env *env)
+{
+    watch w = {cutter, vain->left / CROSSING, env, NULL, false};
+    const iccp_env watched = {.memory = env->memory, .user = &w, .progress = look, .threads = 1};
+    const icc_status status = iccp_cuts_create(cuts, cutter, tree, &watched);
+    return w.is_over && status == ICC_ERR_CANCELLED ? ICC_ERR_RESOLUTION : status;
+}
+
+/* ---- choosing a tree ---- */
+
 /* Tries one tree: makes the start and its energy. The energy is HUGE_VAL if there is no start, or
  * if its overlay is too large. *least: the fewest triangles of all overlays so far. */
 static icc_status try_tree(iccp_plmap *map, double *energy, size_t *least, iccp_cuts *cuts,
                            const iccp_domain_pair *scene, iccp_cutter *cutter, uint64_t tree,
-                           iccp_work *work, const iccp_env *env)
+                           iccp_allowance *work, const iccp_env *env)
 {
-    icc_status status = iccp_cuts_create(cuts, cutter, tree, env);
+    icc_status status = find_cuts(cuts, cutter, tree, &work->vain, env);
     *energy = HUGE_VAL;
     if (status == ICC_OK)
         status = start_from(map, scene, cuts, env);
-    if (status != ICC_OK)
+    if (status != ICC_OK) {
+        iccp_work_charge(&work->vain, CROSSING * count_crossings(cutter));
         return status;
+    }
     const size_t n = map->corners.n_triangles;
-    if (!iccp_work_take(work, COST * n))
-        work->left = 0;
+    if (!iccp_work_take(&work->search, COST * n))
+        work->search.left = 0;
     *least = n < *least ? n : *least;
     if ((double)n > TOO_MANY * (double)*least)
         return ICC_OK;
@@ -155,14 +194,15 @@ static double detour_of(const iccp_cuts *cuts, int side)
 
 /* Finds the best start of several trees. Ends when one is good enough, or no work is left. */
 static icc_status choose(iccp_plmap *map, const iccp_domain_pair *scene, iccp_cutter *cutter,
-                         iccp_work *work, iccp_feature_report *report, const iccp_env *env)
+                         iccp_allowance *work, iccp_feature_report *report, const iccp_env *env)
 {
     double best = HUGE_VAL;
     size_t least = SIZE_MAX;
     bool is_good = false;
     icc_status status = ICC_OK;
     const uint64_t n_trees = scene->n_cuts > 0 ? TREES : 1;
-    for (uint64_t tree = 0; tree < n_trees && !is_good && work->left > 0; ++tree) {
+    for (uint64_t tree = 0;
+         tree < n_trees && !is_good && work->search.left > 0 && work->vain.left > 0; ++tree) {
         iccp_cuts cuts = {.memory = env->memory};
         iccp_plmap other = {.memory = env->memory};
         double energy;
@@ -221,7 +261,7 @@ static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 }
 
 icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
-                              const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
+                              const icc_map_options *options, iccp_allowance *work,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err)
 {
     iccp_domain_pair *scene = &report->scene;
@@ -236,14 +276,14 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
     else if (status == ICC_OK) {
         status = iccp_cutter_create(&cutter, scene, env);
         if (status == ICC_OK)
-            status = choose(map, scene, &cutter, trees, report, &part[0]);
+            status = choose(map, scene, &cutter, work, report, &part[0]);
         iccp_cutter_free(&cutter);
     }
     if (status == ICC_ERR_RESOLUTION)
         status = iccp_fail(err, status,
                            "no map was found: the features are too close together, or too "
                            "entangled, for double precision");
-    return status == ICC_OK ? relax(map, relaxing, &part[1]) : status;
+    return status == ICC_OK ? relax(map, &work->overlay, &part[1]) : status;
 }
 
 void iccp_feature_report_free(iccp_feature_report *report)

@@ -3,7 +3,7 @@
 #define ICCP_FEATURE_START_H
 
 #include "map/compatible/plmap.h"
-#include "map/energy/work.h"
+#include "map/energy/schedule.h"
 #include "map/isotopy/cuts.h"
 
 /* What is known of a start. The caller frees it in any case. */
@@ -16,12 +16,13 @@ typedef struct iccp_feature_report {
 /* Makes a map that is exactly one-to-one and takes each feature of one domain to the feature of the
  * same number in the other, vertex by vertex. With ties, the map has the isotopy class that they
  * describe. Without ties, several trees of cuts are tried, and the map of least energy is taken.
- * `trees` and `relaxing` limit the work of trying trees and of relaxing the start.
+ * work->search limits the trees that lead to a map, work->vain the others, and work->overlay the
+ * steps that relax the start.
  *
- * Returns ICC_ERR_RESOLUTION if rounding spoils the start of every tree, and the errors of
- * iccp_ties_read() for ties. */
+ * Returns ICC_ERR_RESOLUTION if rounding spoils the start of every tree that was tried, and the
+ * errors of iccp_ties_read() for ties. */
 icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
-                              const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
+                              const icc_map_options *options, iccp_allowance *work,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err);
 
 void iccp_feature_report_free(iccp_feature_report *report);

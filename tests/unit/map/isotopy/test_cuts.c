@@ -468,9 +468,11 @@ START_TEST(starts_are_maps)
         iccp_plmap map[3];
         for (int i = 0; i < 3; ++i) {
             iccp_feature_report report;
-            iccp_work trees = {.left = i < 2 ? 1e5 : 1}, relaxing = {.left = i < 2 ? 1e5 : 0};
-            ck_assert_int_eq(iccp_feature_start(&map[i], p.domain[0], p.domain[1], &options, &trees,
-                                                &relaxing, &report, &env, NULL),
+            iccp_allowance work = {.search.left = i < 2 ? 1e5 : 1,
+                                   .vain = iccp_work_unlimited(),
+                                   .overlay.left = i < 2 ? 1e5 : 0};
+            ck_assert_int_eq(iccp_feature_start(&map[i], p.domain[0], p.domain[1], &options, &work,
+                                                &report, &env, NULL),
                              ICC_OK);
             ck_assert_uint_eq(report.cuts.n, p.domain[0]->features->n);
             ck_assert(report.n_trees >= 1 && (i < 2 || report.n_trees == 1));
