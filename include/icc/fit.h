@@ -259,7 +259,8 @@ ICC_API icc_status icc_fit_create(icc_fit **out, const icc_domain *domain, const
 /**
  * Makes the fit to targets that have moved, starting from `fit`. Use it while something is dragged.
  * An elastic fit keeps its mesh and continues from its present shape. A spline keeps its margin,
- * but its mesh may change.
+ * its smoothing and its factorised system, so that it only has to be solved, and repaired where it
+ * folds. Where the spline needs a finer mesh, its triangles may change.
  *
  * @param[out] out the fit; owned by the caller
  * @param fit      the fit before. It does not change

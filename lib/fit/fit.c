@@ -5,6 +5,7 @@
 #include "base/threads.h"
 #include "fit/elastic_fit.h"
 #include "fit/elastic_shape.h"
+#include "fit/spline/spline.h"
 #include "fit/spline_fit.h"
 
 #include <string.h>
@@ -18,6 +19,7 @@ void iccp_fit_release(icc_fit *fit)
     iccp_told_free(&fit->told);
     iccp_free(&memory, fit->residuals);
     iccp_free(&memory, fit->left_out);
+    iccp_spline_base_release(fit->base);
     iccp_elastic_shape_release(fit->shape);
     iccp_free(&memory, fit->images);
     iccp_free(&memory, fit->off);
@@ -123,6 +125,8 @@ static icc_status move(icc_fit *next, const icc_fit *fit, const double *targets,
     icc_status status = iccp_told_aim(&next->told, &fit->told, targets, env, err);
     if (status == ICC_OK)
         status = make_room(next);
+    if (status == ICC_OK && fit->base != NULL)
+        next->base = iccp_spline_base_retain(fit->base);
     if (status == ICC_OK && fit->shape != NULL)
         status = take_shape(next, iccp_elastic_shape_retain(fit->shape), fit);
     return status == ICC_OK ? solve(next, env, err) : status;
@@ -131,12 +135,10 @@ static icc_status move(icc_fit *next, const icc_fit *fit, const double *targets,
 icc_status iccp_fit_move(icc_fit **out, const icc_fit *fit, const double *targets,
                          const iccp_env *env, icc_error *err)
 {
-    icc_fit_options options = fit->options;
     iccp_team team;
     iccp_env with;
-    options.margin = fit->info.margin;
     iccp_with_team(&with, &team, env);
-    icc_status status = begin(out, &options, env);
+    icc_status status = begin(out, &fit->options, env);
     if (status == ICC_OK)
         status = move(*out, fit, targets, &with, err);
     iccp_without_team(&with, env);

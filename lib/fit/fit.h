@@ -14,7 +14,8 @@
  *   and certifies an ordinary map.
  *
  * Invariants
- * - A fit does not change. Elastic fits that were made by moving one another share their shape.
+ * - A fit does not change. Elastic fits that were made by moving one another share their shape, and
+ *   splines their factorised system.
  * - Exact items that are not reported as off have their targets bit for bit.
  *
  * Begin with fit.c. */
@@ -26,6 +27,7 @@
 #include "map/map.h"
 
 struct iccp_elastic_shape;
+struct iccp_spline_base;
 
 struct icc_fit {
     iccp_memory memory;
@@ -36,6 +38,7 @@ struct icc_fit {
     double box[4];           /* of the spline; options.box points here, or is NULL */
     double *residuals;       /* 2 told.n */
     double *left_out;        /* 2 told.n */
+    struct iccp_spline_base *base;    /* of a spline: what it shares with moved ones */
     struct iccp_elastic_shape *shape; /* of an elastic fit */
     double *images;                   /* of an elastic fit: local, where a moved one begins */
     uint8_t *off;  /* of an elastic fit: of each vertex, 1 if the last move of a drag left it off */

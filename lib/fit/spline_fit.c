@@ -95,9 +95,12 @@ static icc_status make_spline(spline_job *j, const iccp_env *env, icc_error *err
                                    .lower = fit->options.box != NULL ? j->lower : NULL,
                                    .upper = fit->options.box != NULL ? j->upper : NULL,
                                    .margin = fit->options.margin,
-                                   .smoothing = fit->options.smoothing};
+                                   .smoothing = fit->options.smoothing,
+                                   .base = fit->base};
     if (status == ICC_OK)
         status = iccp_spline_create(&j->spline, &task, env, err);
+    if (status == ICC_OK && fit->base == NULL)
+        j->fit->base = iccp_spline_base_retain(j->spline.base);
     if (status == ICC_ERR_SOLVER)
         status = iccp_fail(err, ICC_ERR_RESOLUTION,
                            "doubles cannot solve this: points are too close together beside the "
@@ -179,8 +182,8 @@ static void note_residuals(spline_job *j, const double *images)
             fit->left_out[2 * i + k] = s->left_out[2 * i + k] * unit[0] * unit[1];
             sum += off * off;
         }
-    fit->info.margin = s->margin;
-    fit->info.smoothing = s->smoothing;
+    fit->info.margin = s->base->margin;
+    fit->info.smoothing = s->base->smoothing;
     fit->info.residual = sqrt(sum / (double)fit->told.n);
     fit->info.left_out = s->left_out_residual * unit[0] * unit[1];
     fit->info.affine_residual = s->affine_residual * unit[0] * unit[1];

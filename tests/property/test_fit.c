@@ -196,6 +196,43 @@ START_TEST(a_moved_spline_is_the_one_made_anew)
 }
 END_TEST
 
+/* A spline keeps its margin, its smoothing and its factor when it moves. So when it comes back, it
+ * is the same to the last bit. */
+START_TEST(a_spline_comes_back)
+{
+    random_source r = {5};
+    double p[2 * MOST], q[2 * MOST], tolerance[MOST], probe[40], images[2][40];
+    random_points(&r, 40, p);
+    random_points(&r, 20, probe);
+    for (size_t i = 0; i < 40; ++i) {
+        tolerance[i] = i % 3 == 0 ? 0 : 0.01;
+        q[2 * i] = p[2 * i] + 0.05 * p[2 * i + 1] * p[2 * i + 1] + tolerance[i] * (double)(i % 2);
+        q[2 * i + 1] = p[2 * i + 1];
+    }
+    icc_constraint told = points_of(40, p, q);
+    const icc_fit_options options = {.size = sizeof options, .box = (double[]){0, 0, 1, 1}};
+    icc_fit_info info[3] = {{.size = sizeof *info}, {.size = sizeof *info}, {.size = sizeof *info}};
+    told.tolerance = tolerance;
+    icc_fit *fit[3] = {fit_of(&told, &options)};
+    const double there = q[2];
+    for (int k = 0; k < 2; ++k) {
+        q[2] = k == 0 ? there + 0.25 : there;
+        ck_assert_int_eq(icc_fit_move(&fit[k + 1], fit[k], q, NULL, NULL), ICC_OK);
+    }
+    for (int k = 0; k < 3; ++k)
+        ck_assert_int_eq(icc_fit_get_info(fit[k], &info[k]), ICC_OK);
+    ck_assert_double_gt(info[0].smoothing, 0);
+    ck_assert(memcmp(&info[0], &info[2], sizeof *info) == 0);
+    ck_assert(!(info[1].margin < info[0].margin || info[1].margin > info[0].margin));
+    for (int k = 0; k < 3; k += 2)
+        ck_assert_int_eq(
+            icc_map_apply(icc_fit_map(fit[k]), 20, probe, images[k / 2], NULL, NULL, NULL), ICC_OK);
+    ck_assert_mem_eq(images[0], images[1], sizeof *images);
+    for (int k = 0; k < 3; ++k)
+        icc_fit_free(fit[k]);
+}
+END_TEST
+
 /* ---- figures and meshes ---- */
 
 static icc_domain *bar(void)
@@ -532,6 +569,7 @@ int main(void)
     tcase_add_test(tc, folded_splines_are_repaired);
     tcase_add_test(tc, tolerances_smooth);
     tcase_add_test(tc, a_moved_spline_is_the_one_made_anew);
+    tcase_add_test(tc, a_spline_comes_back);
     tcase_add_test(tc, a_bar_bends);
     tcase_add_test(tc, told_edges_are_straight);
     tcase_add_test(tc, lines_may_begin_on_the_outline);

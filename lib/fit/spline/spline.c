@@ -97,7 +97,7 @@ static double mean_length(size_t n, const double *v)
 /* With fewer than three points nothing bends, and there is no system. */
 static bool has_system(const iccp_spline *s)
 {
-    return s->system.told != NULL;
+    return s->base->system.told != NULL;
 }
 
 /* Solves for the bending parts of the images, if there is a system, and leaves out points. */
@@ -105,18 +105,18 @@ static icc_status solve(iccp_spline *s, double *u, const iccp_env *env)
 {
     for (size_t k = 0; k < 2 * s->control.n; ++k)
         s->left_out_own[k] = NAN;
-    memset(u, 0, 2 * s->solved.n_vertices * sizeof *u);
+    memset(u, 0, 2 * s->base->solved.n_vertices * sizeof *u);
     if (!has_system(s))
         return ICC_OK;
-    const icc_status status = iccp_spline_system_solve(&s->system, s->told, u, env);
+    const icc_status status = iccp_spline_system_solve(&s->base->system, s->told, u, env);
     return status == ICC_OK
-               ? iccp_spline_system_leave_out(&s->system, s->told, u, s->left_out_own, env)
+               ? iccp_spline_system_leave_out(&s->base->system, s->told, u, s->left_out_own, env)
                : status;
 }
 
 static bool is_exact(const iccp_spline *s, size_t k)
 {
-    return !has_system(s) || !(s->system.weight[k] > 0);
+    return !has_system(s) || !(s->base->system.weight[k] > 0);
 }
 
 /* Adds the affine fit to the images. Exact points get their targets. */
@@ -204,10 +204,10 @@ static icc_status make_map(iccp_spline *s, const double *u, const iccp_env *env)
     if (status != ICC_OK)
         return status;
     if (!(tolerance > 0))
-        return fill_map(s, &s->solved, u);
+        return fill_map(s, &s->base->solved, u);
     iccp_box_mesh fine;
     double *fine_u;
-    status = iccp_jump_refine(&fine, &fine_u, &s->solved, u, tolerance, MOST_REFINED, env);
+    status = iccp_jump_refine(&fine, &fine_u, &s->base->solved, u, tolerance, MOST_REFINED, env);
     if (status != ICC_OK)
         return status;
     status = fill_map(s, &fine, fine_u);
@@ -220,16 +220,16 @@ static icc_status make_map(iccp_spline *s, const double *u, const iccp_env *env)
 static icc_status make_system(iccp_spline *s, const double *share, const iccp_env *env)
 {
     const size_t n = s->control.n;
-    iccp_bending_mesh bending = iccp_bending_mesh_of(&s->solved);
-    memcpy(bending.metric, s->metric, sizeof bending.metric);
+    iccp_bending_mesh bending = iccp_bending_mesh_of(&s->base->solved);
+    memcpy(bending.metric, s->base->metric, sizeof bending.metric);
     double *weight = iccp_alloc(&env->memory, n, sizeof *weight);
     uint32_t *told = iccp_alloc(&env->memory, n, sizeof *told);
     const bool ready = weight != NULL && told != NULL;
     for (uint32_t k = 0; ready && k < n; ++k) {
-        weight[k] = s->smoothing > 0 ? share[k] / s->smoothing : 0;
+        weight[k] = s->base->smoothing > 0 ? share[k] / s->base->smoothing : 0;
         told[k] = k;
     }
-    const icc_status status = ready ? iccp_spline_system_create(&s->system, &bending, n, told,
+    const icc_status status = ready ? iccp_spline_system_create(&s->base->system, &bending, n, told,
                                                                 weight, s->trend.is_line, env)
                                     : ICC_ERR_MEMORY;
     iccp_free(&env->memory, weight);
@@ -242,7 +242,7 @@ static icc_status solve_and_map(iccp_spline *s, const double *targets, const icc
 {
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){1, 1}, env);
-    double *u = iccp_alloc(&env->memory, s->solved.n_vertices, 2 * sizeof *u);
+    double *u = iccp_alloc(&env->memory, s->base->solved.n_vertices, 2 * sizeof *u);
     icc_status status = u != NULL ? solve(s, u, &parts[0]) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = make_map(s, u, &parts[1]);
@@ -271,22 +271,21 @@ static icc_status begin(iccp_spline *s, const iccp_spline_task *task, const iccp
     return status;
 }
 
-/* Prepares the values that bend, and the weights of points for smoothing 1. */
+/* Prepares the metric, and the weights of points for smoothing 1. */
 static void prepare(iccp_spline *s, const iccp_spline_task *task, double size, double *share)
 {
-    find_metric(&s->trend, size, s->metric);
-    find_rest(s);
+    find_metric(&s->trend, size, s->base->metric);
     const bool has_weights = find_shares(s->control.n, s->control.tolerances, share) &&
                              !(task->smoothing < 0) && s->control.n >= 3;
     if (!has_weights)
         memset(share, 0, s->control.n * sizeof *share);
-    s->smoothing = has_weights ? task->smoothing : 0;
+    s->base->smoothing = has_weights ? task->smoothing : 0;
 }
 
 static iccp_frame_question question_of(const iccp_spline *s, const iccp_spline_task *task,
                                        const double *share)
 {
-    const double *m = s->metric;
+    const double *m = s->base->metric;
     return (iccp_frame_question){.n = s->control.n,
                                  .points = s->control.points,
                                  .values = s->told,
@@ -299,35 +298,63 @@ static iccp_frame_question question_of(const iccp_spline *s, const iccp_spline_t
 
 /* ---- frames ---- */
 
+iccp_spline_base *iccp_spline_base_retain(iccp_spline_base *base)
+{
+    (void)atomic_fetch_add(&base->references, 1);
+    return base;
+}
+
+void iccp_spline_base_release(iccp_spline_base *base)
+{
+    if (base == NULL || atomic_fetch_sub(&base->references, 1) > 1)
+        return;
+    const iccp_memory memory = base->memory;
+    iccp_box_mesh_free(&base->solved);
+    iccp_spline_system_free(&base->system);
+    iccp_free(&memory, base);
+}
+
+/* Makes an empty base. */
+static icc_status begin_base(iccp_spline *s)
+{
+    iccp_spline_base *base = iccp_alloc_zero(&s->memory, 1, sizeof *base);
+    s->base = base;
+    if (base == NULL)
+        return ICC_ERR_MEMORY;
+    base->memory = base->solved.memory = base->system.memory = s->memory;
+    base->system.energy.memory = base->system.factor.memory = s->memory;
+    atomic_init(&base->references, 1);
+    return ICC_OK;
+}
+
+/* Chooses margin and smoothing, makes the mesh and factorises. */
 static icc_status make_frame(iccp_spline *s, const iccp_spline_task *task, double *share,
                              const iccp_frame_region *region, const iccp_env *env)
 {
-    iccp_env parts[4];
-    iccp_split(parts, 4, (const double[]){2, 1, 3, 1}, env);
+    iccp_env parts[3];
+    iccp_split(parts, 3, (const double[]){2, 1, 3}, env);
     const bool bends = s->control.n >= 3;
     prepare(s, task, region->size, share);
-    s->margin = task->margin > 0 ? iccp_max(task->margin, LEAST_MARGIN) : bends ? 0 : USUAL_MARGIN;
+    s->base->margin = task->margin > 0 ? iccp_max(task->margin, LEAST_MARGIN)
+                      : bends          ? 0
+                                       : USUAL_MARGIN;
     const iccp_frame_question q = question_of(s, task, share);
     icc_status status =
-        bends ? iccp_choose_frame(&s->margin, &s->smoothing, &q, &parts[0]) : ICC_OK;
+        bends ? iccp_choose_frame(&s->base->margin, &s->base->smoothing, &q, &parts[0]) : ICC_OK;
     if (status == ICC_OK)
-        status = iccp_frame_mesh(&s->solved, region, s->margin, ACROSS, 0, &parts[1]);
-    if (status == ICC_OK && bends)
-        status = make_system(s, share, &parts[2]);
-    return status == ICC_OK ? solve_and_map(s, task->targets, &parts[3]) : status;
+        status = iccp_frame_mesh(&s->base->solved, region, s->base->margin, ACROSS, 0, &parts[1]);
+    return status == ICC_OK && bends ? make_system(s, share, &parts[2]) : status;
 }
 
-static icc_status create(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env,
-                         icc_error *err)
+/* Makes a base for the points. */
+static icc_status make_base(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env)
 {
-    icc_status status = begin(s, task, env, err);
-    if (status != ICC_OK)
-        return status;
     iccp_frame_region region;
     double *share = iccp_alloc(&env->memory, s->control.n, sizeof *share);
-    status = share != NULL ? iccp_frame_region_create(&region, s->control.n, s->control.points,
-                                                      task->lower, task->upper, env)
-                           : ICC_ERR_MEMORY;
+    icc_status status = share != NULL ? begin_base(s) : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_frame_region_create(&region, s->control.n, s->control.points, task->lower,
+                                          task->upper, env);
     if (status == ICC_OK) {
         status = make_frame(s, task, share, &region, env);
         iccp_free(&env->memory, region.spacing);
@@ -336,13 +363,28 @@ static icc_status create(iccp_spline *s, const iccp_spline_task *task, const icc
     return status;
 }
 
+static icc_status create(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env,
+                         icc_error *err)
+{
+    iccp_env parts[2];
+    iccp_split(parts, 2, (const double[]){task->base != NULL ? 0.01 : 6, 1}, env);
+    icc_status status = begin(s, task, env, err);
+    if (status != ICC_OK)
+        return status;
+    find_rest(s);
+    if (task->base != NULL)
+        s->base = iccp_spline_base_retain(task->base);
+    else
+        status = make_base(s, task, &parts[0]);
+    return status == ICC_OK ? solve_and_map(s, task->targets, &parts[1]) : status;
+}
+
 /* ---- all of it ---- */
 
 static iccp_spline nothing(const iccp_memory *memory)
 {
     iccp_spline s = {.memory = *memory};
-    s.control.memory = s.map.memory = s.system.memory = s.solved.memory = *memory;
-    s.system.energy.memory = s.system.factor.memory = *memory;
+    s.control.memory = s.map.memory = *memory;
     return s;
 }
 
@@ -361,8 +403,7 @@ void iccp_spline_free(iccp_spline *spline)
     const iccp_memory memory = spline->memory;
     iccp_distinct_points_free(&spline->control);
     iccp_plmap_free(&spline->map);
-    iccp_box_mesh_free(&spline->solved);
-    iccp_spline_system_free(&spline->system);
+    iccp_spline_base_release(spline->base);
     iccp_free(&memory, spline->left_out);
     iccp_free(&memory, spline->left_out_own);
     iccp_free(&memory, spline->told);

@@ -21,6 +21,30 @@
 #include "fit/spline/spline_system.h"
 #include "map/compatible/plmap.h"
 
+#include <stdatomic.h>
+
+/* What splines of the same points share, whatever the targets: the frame, its mesh and the
+ * factorised system. It does not change after it is made. */
+typedef struct iccp_spline_base {
+    iccp_memory memory;
+    atomic_size_t references;
+    double margin; /* as used */
+    /* As used; 0: all points are exact. The spline minimises s E + sum_i (t / t_i)^2 |off_i|^2 with
+     * the smoothing s. E is the integral of the squared second derivatives, in a metric in which
+     * lengths are those of the affine fit and the box's longest side is about 1. t_i are the
+     * tolerances, and 1 / t^2 is the mean of 1 / t_i^2 */
+    double smoothing;
+    double metric[4];     /* see iccp_bending_mesh: that of the targets for which it was made */
+    iccp_box_mesh solved; /* the mesh of the system. Its vertices are the map's first */
+    iccp_spline_system system; /* without told vertices if nothing can bend */
+} iccp_spline_base;
+
+/* Returns `base`. */
+iccp_spline_base *iccp_spline_base_retain(iccp_spline_base *base);
+
+/* Accepts NULL. */
+void iccp_spline_base_release(iccp_spline_base *base);
+
 /* What to fit. All coordinates are local: the largest is about 1. */
 typedef struct iccp_spline_task {
     size_t n;                       /* at least 1 */
@@ -28,7 +52,10 @@ typedef struct iccp_spline_task {
     const double *tolerances;       /* n: how far a point may be off; 0: exact. NULL: all exact */
     const double *lower, *upper;    /* the box to cover at least; NULL: the points' bounding box */
     double margin;    /* how far the frame reaches, in longest sides of the box; 0: chosen */
-    double smoothing; /* as in icc_fit_options; see iccp_spline::smoothing */
+    double smoothing; /* as in icc_fit_options; see iccp_spline_base::smoothing */
+    /* of a spline of the same points, tolerances and box: then nothing is chosen or factorised
+     * anew. NULL: none */
+    iccp_spline_base *base;
 } iccp_spline_task;
 
 typedef struct iccp_spline {
@@ -44,18 +71,10 @@ typedef struct iccp_spline {
     double *left_out; /* 2 n: where the other points would take each point, minus its target. NaN
                           if they do not determine it */
     double left_out_residual, affine_residual; /* root mean square; NaN if not known */
-    double margin;                             /* as used */
-    /* As used; 0: all points are exact. The spline minimises s E + sum_i (t / t_i)^2 |off_i|^2 with
-     * the smoothing s. E is the integral of the squared second derivatives, in a metric in which
-     * lengths are those of the affine fit and the box's longest side is about 1. t_i are the
-     * tolerances, and 1 / t^2 is the mean of 1 / t_i^2 */
-    double smoothing;
-    iccp_trend trend;          /* the affine fit */
-    double metric[4];          /* see iccp_bending_mesh */
-    iccp_box_mesh solved;      /* the mesh of the system. Its vertices are the map's first */
-    iccp_spline_system system; /* factorised; without told vertices if nothing can bend */
-    double *told;              /* 2 control.n: targets less the affine fit */
-    double *left_out_own;      /* 2 control.n: working memory */
+    iccp_trend trend;                          /* the affine fit */
+    iccp_spline_base *base;                    /* one reference of it is the spline's */
+    double *told;                              /* 2 control.n: targets less the affine fit */
+    double *left_out_own;                      /* 2 control.n: working memory */
 } iccp_spline;
 
 /* Makes the spline, chooses margin and smoothing where they are not given, and leaves out each

@@ -68,8 +68,8 @@ static icc_status fill_frame(iccp_pieces *pieces, const iccp_env *env)
     icc_status status = ICC_OK;
     pieces->regions.is_stuck = true;
     pieces->vain = allow_vain_work(pieces->map);
-    for (int k = 0; status == ICC_OK && pieces->regions.is_stuck && pieces->vain.left > 0 &&
-                    k < WIDENINGS;
+    for (int k = 0;
+         status == ICC_OK && pieces->regions.is_stuck && pieces->vain.left > 0 && k < WIDENINGS;
          ++k) {
         iccp_affine_frame_set(&frame, scale, pieces->map);
         iccp_regions_take_all(&pieces->regions);

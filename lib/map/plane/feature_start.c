@@ -133,7 +133,6 @@ typedef struct watch {
     const iccp_cutter *cutter;
     double most; /* crossings */
     const iccp_env *env;
-    const char *stage;
     bool is_over;
 } watch;
 
@@ -153,7 +152,7 @@ static int32_t look(void *user, const char *stage, double share)
 static icc_status find_cuts(iccp_cuts *cuts, iccp_cutter *cutter, uint64_t tree,
                             const iccp_work *vain, const iccp_env *env)
 {
-    watch w = {cutter, vain->left / CROSSING, env, NULL, false};
+    watch w = {cutter, vain->left / CROSSING, env, false};
     const iccp_env watched = {.memory = env->memory, .user = &w, .progress = look, .threads = 1};
     const icc_status status = iccp_cuts_create(cuts, cutter, tree, &watched);
     return w.is_over && status == ICC_ERR_CANCELLED ? ICC_ERR_RESOLUTION : status;

@@ -236,8 +236,8 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 1, 3}, env);
     work.overlay.left = work.relaxing;
-    icc_status status = iccp_feature_start(&map->pl, source, target, options, &work, &report,
-                                           &part[0], err);
+    icc_status status =
+        iccp_feature_start(&map->pl, source, target, options, &work, &report, &part[0], err);
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && options->iterations >= 0)
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);

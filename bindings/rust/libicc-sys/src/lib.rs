@@ -4212,8 +4212,9 @@ extern "C" {
     ) -> icc_status;
 
     /// Makes the fit to targets that have moved, starting from `fit`. Use it while something is dragged. An
-    /// elastic fit keeps its mesh and continues from its present shape. A spline keeps its margin, but its
-    /// mesh may change.
+    /// elastic fit keeps its mesh and continues from its present shape. A spline keeps its margin, its
+    /// smoothing and its factorised system, so that it only has to be solved, and repaired where it folds.
+    /// Where the spline needs a finer mesh, its triangles may change.
     ///
     /// - `out` (out): the fit; owned by the caller
     /// - `fit`: the fit before. It does not change

@@ -182,18 +182,18 @@ static void leave_out_slowly(const iccp_spline *s, size_t i, double out[2])
 {
     const iccp_env env = default_env();
     const size_t n = s->control.n;
-    iccp_bending_mesh bending = iccp_bending_mesh_of(&s->solved);
-    memcpy(bending.metric, s->metric, sizeof bending.metric);
+    iccp_bending_mesh bending = iccp_bending_mesh_of(&s->base->solved);
+    memcpy(bending.metric, s->base->metric, sizeof bending.metric);
     uint32_t told[MOST];
     double weight[MOST], value[2 * MOST];
     for (size_t k = 0, to = 0; k < n; ++k)
         if (k != i) {
             told[to] = (uint32_t)k;
-            weight[to] = s->system.weight[k];
+            weight[to] = s->base->system.weight[k];
             memcpy(value + 2 * to++, s->told + 2 * k, 2 * sizeof(double));
         }
     iccp_spline_system system;
-    double *u = malloc(2 * s->solved.n_vertices * sizeof *u);
+    double *u = malloc(2 * s->base->solved.n_vertices * sizeof *u);
     ck_assert(iccp_spline_system_create(&system, &bending, n - 1, told, weight, false, &env) ==
               ICC_OK);
     ck_assert(iccp_spline_system_solve(&system, value, u, &env) == ICC_OK);
@@ -344,7 +344,7 @@ START_TEST(smoothing)
     iccp_spline exact = spline_of(&task);
     task.tolerances = sheet.tolerances;
     iccp_spline smooth = spline_of(&task);
-    ck_assert_double_gt(smooth.smoothing, 0);
+    ck_assert_double_gt(smooth.base->smoothing, 0);
     ck_assert_double_lt(mean_off(&smooth, wavy), 0.7 * mean_off(&exact, wavy));
     ck_assert_double_gt(mean_residual(&smooth, sheet.n, sheet.targets), 0.003);
     ck_assert_double_lt(smooth.left_out_residual, exact.left_out_residual);
