@@ -367,7 +367,7 @@ static icc_status create(iccp_spline *s, const iccp_spline_task *task, const icc
                          icc_error *err)
 {
     iccp_env parts[2];
-    iccp_split(parts, 2, (const double[]){task->base != NULL ? 0.01 : 6, 1}, env);
+    iccp_split(parts, 2, (const double[]){task->base != NULL ? 0 : 6, 1}, env);
     icc_status status = begin(s, task, env, err);
     if (status != ICC_OK)
         return status;
