@@ -365,7 +365,20 @@ END_TEST
 
 /* ---- bytes that are not those of a map ---- */
 
-enum { N_SMALL = 5 };
+enum { N_SMALL = 6 };
+
+/* A line leads from the outer ring to a hole, and another one from there to a joint. */
+static domain_pair network_pair(void)
+{
+    plan source = plan_square(4);
+    plan_feature(&source, ICC_FEATURE_HOLE, 3, (const double[]){1, 1, 2, 1, 1, 2});
+    plan_feature(&source, ICC_FEATURE_LINE, 2, (const double[]){0, 0, 1, 1});
+    plan_feature(&source, ICC_FEATURE_LINE, 3, (const double[]){2, 1, 3, 2, 4, 4});
+    plan_feature(&source, ICC_FEATURE_LINE, 2, (const double[]){3, 2, 2, 3});
+    plan target = source;
+    target.xy[2 * 10] += 0.3;
+    return (domain_pair){plan_domain(&source), plan_domain(&target)};
+}
 
 static icc_map *small_map(int k, domain_pair *p)
 {
@@ -376,6 +389,10 @@ static icc_map *small_map(int k, domain_pair *p)
     }
     if (k == 4) {
         *p = feature_pair(1);
+        return feature_map(p, -1);
+    }
+    if (k == 5) {
+        *p = network_pair();
         return feature_map(p, -1);
     }
     *p = bent_pair(&s);
