@@ -377,6 +377,7 @@ static domain_pair network_pair(void)
     plan_feature(&source, ICC_FEATURE_LINE, 2, (const double[]){3, 2, 2, 3});
     plan target = source;
     target.xy[2 * 10] += 0.3;
+    target.xy[2 * 12] += 0.3;
     return (domain_pair){plan_domain(&source), plan_domain(&target)};
 }
 
