@@ -115,6 +115,11 @@ static icc_status check_tree(const iccp_cuts *cuts, const iccp_domain_pair *doma
         return iccp_fail_memory(err);
     const size_t i = find_ring(cuts, domains, group);
     iccp_free(&cuts->memory, group);
+    for (size_t k = 0; k < n; ++k)
+        if (domains->part[domains->component[cuts->ends[2 * k]]] !=
+            domains->part[domains->component[cuts->ends[2 * k + 1]]])
+            return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_TIE, (int64_t)k,
+                                "tie %zu joins two parts of the domain that are apart", k);
     return i == n ? ICC_OK
                   : iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_TIE, (int64_t)i,
                                  "tie %zu joins what the ties before it join already", i);
