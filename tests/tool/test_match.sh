@@ -110,7 +110,7 @@ holds out 'common      18 vertices; 15 of them are of both outlines'
 run 0 match -s inside.geojson --json
 holds out '"vertices": 18'
 run 1 match -s inside.geojson -o a.txt --target-output b.geojson
-says 'a.txt: text holds no holes, lines or points'
+says 'a.txt: text holds one outline and no holes, lines or points'
 run 0 check -s common.geojson -t common.geojson
 holds out 'one-to-one: yes, certified'
 printf '3 3\n1 1\n3 1\n4 3\n5 1\n' >points.txt
@@ -126,6 +126,28 @@ run 0 match -s inside.geojson --landmarks inside.txt
 sed 's/\(, \[\[5.1.*5.1, 2\]\]\)/ /' inside.geojson | sed 's/^\( *\[\[1, 5\].*\]\]\).*, \[\[2, 2.1/\1, [[2, 2.1/' >one.geojson
 run 1 match -s inside.geojson -t one.geojson
 says 'the source has 2 holes, the target 1'
+
+# Several outlines: a percent sign as SVG, in another order, and as a MultiPolygon.
+echo '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0,0 L6,0 L36,40 L30,40 Z M0,30 A10,10 0 0 1 20,30
+    A10,10 0 0 1 0,30 Z M4,30 A6,6 0 0 0 16,30 A6,6 0 0 0 4,30 Z M20,10 A10,10 0 0 1 40,10 A10,10 0 0 1 20,10 Z
+    M24,10 A6,6 0 0 0 36,10 A6,6 0 0 0 24,10 Z"/></svg>' >percent.svg
+echo '{"type": "MultiPolygon", "coordinates": [
+    [[[28, 20], [40, 8], [52, 20], [40, 32], [28, 20]], [[34, 20], [40, 26], [46, 20], [40, 14], [34, 20]]],
+    [[[0, 0], [4, 0], [52, 50], [48, 50], [0, 0]]],
+    [[[0, 36], [12, 24], [24, 36], [12, 48], [0, 36]], [[6, 36], [12, 42], [18, 36], [12, 30], [6, 36]]]]}' >percent.geojson
+run 0 match -s percent.svg -t percent.geojson -o glyphs.geojson
+holds out 'common      '
+[ "$(grep -c '"role"' glyphs.geojson)" -eq 6 ] || complain 'the match does not write three polygons for each side'
+run 0 check -s glyphs.geojson
+holds out 'certified'
+printf '0 0\n2 30\n38 10\n10 30\n' >points.txt # corner, left and right ring, a hole
+run 4 map -s percent.svg -t percent.geojson --match auto -p points.txt
+awk 'NR == 1 { exit !($1 == 0 && $2 == 0) } NR == 2 { exit !($1 < 8 && $2 > 30) } NR == 3 { exit !($1 > 45 && $2 < 25) }
+    NR == 4 { exit $1 != "nan" }' out || complain "parts are not paired: $(cat out)"
+run 1 match -s percent.svg -t key.txt
+says 'the source has 3 parts, the target 1'
+run 1 map -s percent.svg -t percent.geojson --match auto --fill-holes -p points.txt
+says '--fill-holes needs one map for each polygon'
 
 # Wrong usage.
 run 2 match -s key.txt -t turned.txt -o a.txt

@@ -178,10 +178,21 @@ static void take_outline(cage *c, size_t number, cage *polygon)
     size_t line = polygon->lines != NULL && polygon->n > 0 ? polygon->lines[0] : 0;
     add_outline_ring(c, number, 0, polygon->n, polygon->points, line);
     polygon->points = NULL;
-    for (size_t i = 0; i < polygon->n_features; i++) {
+    size_t n_holes = cage_count(polygon, ICC_FEATURE_HOLE);
+    for (size_t i = 0; i < n_holes; i++) {
         cage_feature *f = &polygon->features[i];
         add_outline_ring(c, number, i + 1, f->n, f->points, f->line);
         f->points = NULL;
+    }
+}
+
+/* Takes lines and points. */
+static void take_inside(cage *c, cage *whole)
+{
+    for (size_t i = cage_count(whole, ICC_FEATURE_HOLE); i < whole->n_features; i++) {
+        c->features = grow(c->features, &c->room_features, c->n_features + 1, sizeof *c->features);
+        c->features[c->n_features++] = whole->features[i];
+        whole->features[i].points = NULL;
     }
 }
 
@@ -190,6 +201,7 @@ void cage_join_outlines(cage *c)
     cage whole = *c;
     *c = (cage){.dim = whole.dim,
                 .cut = whole.cut,
+                .flipped = whole.flipped,
                 .n_heights = whole.n_heights,
                 .n_curves = whole.n_curves,
                 .curve_edges = whole.curve_edges,
@@ -198,6 +210,7 @@ void cage_join_outlines(cage *c)
     take_outline(c, 1, &whole);
     for (size_t i = 0; i < whole.n_more; i++)
         take_outline(c, i + 2, &whole.more[i]);
+    take_inside(c, &whole);
     cage_free(&whole);
 }
 

@@ -23,7 +23,7 @@ bool cage_end_region_ring(cage *c, const cage_feature *like, size_t first, probl
 bool cage_sort_features(cage *c, problem *wrong);
 
 /* Makes the outer ring with its holes, and the further polygons, outlines among the features. So one
- * domain has them all. Call it before other features are added. */
+ * domain has them all. Lines and points follow; other regions must be added later. */
 void cage_join_outlines(cage *c);
 
 /* ---- after reading ---- */

@@ -30,15 +30,15 @@ static int check_outputs(const args *a)
                          "in one file");
 }
 
-/* Text has no place for holes, lines and points. */
+/* Text has no place for more than one ring. */
 static int check_text(const job *j)
 {
     const char *names[] = {j->args->output, j->args->target_output};
     for (size_t i = 0; i < 2; i++)
         if (names[i] != NULL && j->cages[0].n_features > 0 && !output_is_json(names[i]))
             return failed(names[i], 0,
-                          "text holds no holes, lines or points, so nothing is written; give a "
-                          "name that ends in .geojson");
+                          "text holds one outline and no holes, lines or points, so nothing is "
+                          "written; give a name that ends in .geojson");
     return DONE;
 }
 

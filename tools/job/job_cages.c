@@ -219,7 +219,7 @@ int job_make_domain(job *j, size_t side)
 
 static int match(job *j)
 {
-    int result = match_check(j);
+    int result = match_prepare(j);
     for (size_t side = 0; side < 2 && result == DONE; side++)
         result = job_make_domain(j, side);
     return result == DONE ? match_cages(j) : result;

@@ -2,7 +2,7 @@
 #include "job/match_cages.h"
 
 #include "base/allocate.h"
-#include "cage/cage_degrees.h"
+#include "cage/cage_features.h"
 #include "job/landmark_file.h"
 
 #include <math.h>
@@ -16,19 +16,17 @@ static const double MATCHED = 0.2;
 /* In degrees. A larger turn is rarely meant. */
 static const double LARGE_TURN = 45;
 
-int match_check(const job *j)
+int match_prepare(job *j)
 {
     for (int side = 1; side <= 2; side++) {
-        const cage *c = &j->cages[side - 1];
+        cage *c = &j->cages[side - 1];
         side_text where;
         if (c->dim != 2 && c->dim != 3)
             return failed(job_file(j, side), 0,
                           "%s%zu dimension%s; --match is for the plane and for surfaces",
                           job_side(where, j, side), c->dim, c->dim == 1 ? "" : "s");
         if (c->n_more > 0)
-            return failed(job_file(j, side), 0,
-                          "%sthe shape has %zu parts; --match takes one polygon%s",
-                          job_side(where, j, side), 1 + c->n_more, cage_cut_text(c));
+            cage_join_outlines(c);
     }
     return DONE;
 }

@@ -198,6 +198,10 @@ int parts_make(job *j)
     bool fills = j->args->fill_holes && cage_count(&c[0], ICC_FEATURE_HOLE) > 0;
     if (c[0].n_more + c[1].n_more == 0 && !fills)
         return j->args->target != NULL ? correspond(j) : DONE;
+    if (c[0].n == 0)
+        return failed(job_file(j, 1), 0,
+                      "--fill-holes needs one map for each polygon, but these are one domain; "
+                      "'libicc match' writes matched polygons to a file");
     int result = check_cages(j);
     if (result == DONE)
         result = correspond(j);
