@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/sort.h"
 #include "fit/elastic/pin_mesh.h"
+#include "geometry/segment.h"
 #include "math/predicates.h"
 #include "mesh/given_triangles.h"
 
@@ -342,6 +343,51 @@ static void blame_item(const pins *p, size_t n, icc_error *err)
         }
 }
 
+/* Where an item is in the domain, locally. Items in one place have one address. */
+static const double *place_of(const pins *p, const icc_domain *domain, const iccp_told *told,
+                              size_t i)
+{
+    return p->of_item[i] != NONE ? p->points + 2 * (size_t)p->of_item[i]
+                                 : domain->vertices + 2 * (size_t)told->vertex[i];
+}
+
+/* Returns true if two segments without a common end meet. */
+static bool meet(const double *a, const double *b, const double *c, const double *d)
+{
+    return a != c && a != d && b != c && b != d && a != b && iccp_segments_meet(a, b, c, d) != 0;
+}
+
+/* Names the end of the first piece of a line that meets the boundary, or an earlier piece. */
+static void blame_line(const pins *p, const icc_domain *domain, const iccp_told *told,
+                       icc_error *err)
+{
+    const double *v = domain->vertices;
+    for (size_t i = 1; i < told->n; ++i) {
+        if (!told->joined[i])
+            continue;
+        const double *a = place_of(p, domain, told, i - 1), *b = place_of(p, domain, told, i);
+        for (size_t f = 0; f < domain->n_facets; ++f) {
+            const uint32_t *ends = domain->facets + 2 * f;
+            if (meet(a, b, v + 2 * (size_t)ends[0], v + 2 * (size_t)ends[1])) {
+                (void)iccp_fail_at(err, ICC_ERR_CERTIFICATE, ICC_ITEM_POINT, (int64_t)i,
+                                   "the line from point %zu to point %zu meets edge %zu of the "
+                                   "domain",
+                                   i - 1, i, f);
+                return;
+            }
+        }
+        for (size_t k = 1; k < i; ++k)
+            if (told->joined[k] &&
+                meet(a, b, place_of(p, domain, told, k - 1), place_of(p, domain, told, k))) {
+                (void)iccp_fail_at(err, ICC_ERR_CERTIFICATE, ICC_ITEM_POINT, (int64_t)i,
+                                   "the line from point %zu to point %zu meets the line from point "
+                                   "%zu to point %zu",
+                                   i - 1, i, k - 1, k);
+                return;
+            }
+    }
+}
+
 static icc_status take_mesh(iccp_elastic_shape *s, iccp_pin_mesh *mesh, const icc_domain *domain,
                             iccp_told *told, const pins *p)
 {
@@ -391,6 +437,8 @@ static icc_status shape_of_domain(iccp_elastic_shape *s, const icc_domain *domai
         status = iccp_pin_mesh_create(&mesh, &input, env, err);
         if (status == ICC_ERR_OUTSIDE)
             blame_item(&p, told->n, err);
+        if (status == ICC_ERR_CERTIFICATE)
+            blame_line(&p, domain, told, err);
         if (status == ICC_OK) {
             status = take_mesh(s, &mesh, domain, told, &p);
             iccp_pin_mesh_free(&mesh);

@@ -547,14 +547,20 @@ START_TEST(wrong_meshes_are_refused)
 }
 END_TEST
 
-/* A told line that crosses itself has no mesh. */
+/* A told line that crosses itself has no mesh, and one that leaves the domain neither. The item is
+ * named. */
 START_TEST(lines_that_meet_are_refused)
 {
     const double p[8] = {1, 0.2, 2, 0.8, 1, 0.8, 2, 0.2};
     icc_constraint told = points_of(4, p, p);
     icc_domain *domain = bar();
     told.kind = ICC_CONSTRAINT_LINE;
-    check_refused(ICC_ERR_CERTIFICATE, domain, NULL, &told, NULL, "lines meet");
+    check_refused(ICC_ERR_CERTIFICATE, domain, NULL, &told, NULL,
+                  "from point 2 to point 3 meets the line from point 0 to point 1");
+    const double out[4] = {1, 0.5, 1, 5}, back[4] = {1, 0.5, 1, 0.6};
+    told = points_of(2, out, back);
+    told.kind = ICC_CONSTRAINT_LINE;
+    check_refused(ICC_ERR_OUTSIDE, domain, NULL, &told, NULL, "point 1");
     icc_domain_free(domain);
 }
 END_TEST

@@ -161,7 +161,8 @@ def _numbers(values: Any, name: str) -> Indices:
 
 
 def _add_sliding(constraints: _Constraints, sliding: Any, places: Optional[Floats]) -> None:
-    given = sliding if isinstance(sliding, tuple) else (sliding, None)
+    is_pair = isinstance(sliding, tuple) and any(np.ndim(part) > 0 for part in sliding)
+    given = sliding if is_pair else (sliding, None)
     if len(given) != 2:
         raise ValueError("sliding is a list of vertices, or a pair (vertices, directions)")
     numbers = _numbers(given[0], "sliding")

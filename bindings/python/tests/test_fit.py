@@ -89,6 +89,8 @@ def test_a_wall_that_moves():
     assert np.array_equal(before, vertices) and np.array_equal(np.sort(same), np.sort(triangles))
     assert np.allclose(after[numbers], places) and np.allclose(after[sides, 0], vertices[sides, 0])
     assert mapping.certified and mapping.info.n_items == len(numbers) + len(sides) == len(mapping.targets)
+    same = libicc.fit(mesh=(vertices, triangles), vertices=(numbers, places), sliding=tuple(int(v) for v in sides[:2]))
+    assert same.info.n_items == len(numbers) + 2  # a tuple of two vertices is no pair
     along = libicc.fit(mesh=(vertices, triangles), vertices=(numbers, places), sliding=(sides, [0, 1]),
                        cell_stiffness=np.ones(len(triangles)))
     assert np.allclose(along(vertices[sides])[:, 0], vertices[sides, 0])
