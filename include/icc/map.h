@@ -1022,8 +1022,8 @@ typedef struct icc_certificate {
     /** 1: every simplex keeps its orientation and both boundaries are simple, so the mesh and
      *  its image are one-to-one */
     int32_t certified;
-    /** 1: no part of the boundary meets itself or another part, and the mesh lies on one side of
-     *  it. The same is true of the image */
+    /** 1: no part of the boundary meets itself or another part, except at common vertices in 2-D,
+     *  and the mesh lies on one side of it. The same is true of the image */
     int32_t boundary_simple;
     size_t n_inverted; /**< simplices whose image has the opposite orientation */
     size_t n_flat;     /**< simplices that have no volume or whose image has none */
@@ -1039,7 +1039,7 @@ typedef struct icc_certificate {
  * are straight where the map bends.
  *
  * The mesh may have holes, voids and handles, and several pieces. Each facet belongs to one simplex
- * or two. No vertex or edge belongs to two parts of the boundary.
+ * or two. In 3-D no vertex or edge belongs to two parts of the boundary.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param mesh             a mesh of the map's dimension, with its vertices in the source

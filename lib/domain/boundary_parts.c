@@ -8,30 +8,43 @@
 #include "domain/complex.h"
 #include "domain/simplicial.h"
 #include "geometry/crossings.h"
+#include "geometry/edges_bound.h"
 #include "geometry/triangles.h"
 
 #include <string.h>
 
 /* ---- the plane ---- */
 
-static icc_status create_rings(iccp_boundary_parts *b, icc_error *err)
+/* Finds the rings if they share no vertex. */
+static icc_status create_rings(iccp_boundary_parts *b)
 {
     uint32_t *next = iccp_alloc(&b->memory, b->n_vertices, sizeof *next);
     icc_status status = next != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK)
+    bool are_apart = next != NULL;
+    if (next != NULL)
         memset(next, 0xff, b->n_vertices * sizeof *next);
-    for (size_t f = 0; status == ICC_OK && f < b->n_facets; ++f) {
-        const uint32_t v = b->facets[2 * f];
-        if (next[v] != UINT32_MAX)
-            status =
-                iccp_fail(err, ICC_ERR_BOUNDARY,
-                          "the boundary of the mesh meets itself at vertex %lu", (unsigned long)v);
-        next[v] = b->facets[2 * f + 1];
+    for (size_t f = 0; are_apart && f < b->n_facets; ++f) {
+        are_apart = next[b->facets[2 * f]] == UINT32_MAX;
+        next[b->facets[2 * f]] = b->facets[2 * f + 1];
     }
-    if (status == ICC_OK)
+    if (are_apart)
         status = iccp_outlines_create(&b->outlines, b->n_vertices, next, &b->memory);
     iccp_free(&b->memory, next);
     return status;
+}
+
+/* Checks the boundary of a mesh in the plane whose rings share vertices. */
+static icc_status check_edges(const iccp_boundary_parts *b, const double *points,
+                              const iccp_env *env, icc_error *err)
+{
+    const iccp_edges edges = {b->n_vertices, b->n_facets, b->facets};
+    bool bound;
+    const icc_status status = iccp_edges_bound(&bound, &edges, points, env);
+    return status != ICC_OK || bound
+               ? status
+               : iccp_fail(err, ICC_ERR_BOUNDARY,
+                           "edges meet elsewhere than at common vertices, or run around a place "
+                           "twice");
 }
 
 /* ---- space ---- */
@@ -149,13 +162,15 @@ static void list_facets(const iccp_simplices *mesh, uint32_t *to)
 icc_status iccp_boundary_parts_create(iccp_boundary_parts *b, const iccp_simplices *mesh,
                                       size_t n_vertices, const iccp_env *env, icc_error *err)
 {
-    *b = (iccp_boundary_parts){
-        .memory = env->memory, .n_vertices = n_vertices, .n_facets = mesh->n_facets};
+    *b = (iccp_boundary_parts){.memory = env->memory,
+                               .dim = mesh->dim,
+                               .n_vertices = n_vertices,
+                               .n_facets = mesh->n_facets};
     b->facets = iccp_alloc(&env->memory, b->n_facets, mesh->dim * sizeof *b->facets);
     if (b->facets == NULL)
         return ICC_ERR_MEMORY;
     list_facets(mesh, b->facets);
-    return mesh->dim == 2 ? create_rings(b, err) : create_surfaces(b, env, err);
+    return mesh->dim == 2 ? create_rings(b) : create_surfaces(b, env, err);
 }
 
 void iccp_boundary_parts_free(iccp_boundary_parts *b)
@@ -171,6 +186,8 @@ icc_status iccp_boundary_parts_check(const iccp_boundary_parts *b, const double 
 {
     if (b->outlines.n > 0)
         return iccp_outlines_check(&b->outlines, points, env, err);
+    if (b->dim == 2)
+        return check_edges(b, points, env, err);
     iccp_facet_tree tree;
     iccp_facet_tree_create(&tree, 3, points, b->n_facets, b->facets, &b->memory);
     icc_status status = ICC_ERR_MEMORY;

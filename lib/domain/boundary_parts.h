@@ -9,22 +9,22 @@
 /* The boundary's parts. Vertices have the caller's numbers. */
 typedef struct iccp_boundary_parts {
     iccp_memory memory;
-    size_t n_vertices, n_facets, n_parts;
-    iccp_outlines outlines; /* in the plane */
-    uint32_t *facets;       /* sorted by surface, facing outwards */
+    size_t dim, n_vertices, n_facets, n_parts;
+    iccp_outlines outlines; /* in the plane; empty if rings share vertices */
+    uint32_t *facets;       /* facing outwards; in space sorted by surface */
     uint32_t *start;        /* n_parts + 1: the first facet of each surface */
 } iccp_boundary_parts;
 
-/* Collects the boundary's parts. Returns ICC_ERR_BOUNDARY if two parts share a vertex or, in space,
- * an edge. */
+/* Collects the boundary's parts. Returns ICC_ERR_BOUNDARY if two parts share a vertex or an edge in
+ * space. */
 icc_status iccp_boundary_parts_create(iccp_boundary_parts *boundary, const iccp_simplices *mesh,
                                       size_t n_vertices, const iccp_env *env, icc_error *err);
 void iccp_boundary_parts_free(iccp_boundary_parts *boundary);
 
-/* Returns ICC_ERR_BOUNDARY if a part of the boundary meets itself or another part. Also returns it
- * if the boundary does not wind around every point once or not at all. If the check passes,
- * positive simplices do not overlap. Exact. `points` are the local coordinates of all of the
- * caller's vertices. */
+/* Returns ICC_ERR_BOUNDARY if a part of the boundary meets itself or another part, except at common
+ * vertices in the plane. Also returns it if the boundary does not wind around every point once or
+ * not at all. If the check passes, positive simplices do not overlap. Exact. `points` are the local
+ * coordinates of all of the caller's vertices. */
 icc_status iccp_boundary_parts_check(const iccp_boundary_parts *boundary, const double *points,
                                      const iccp_env *env, icc_error *err);
 

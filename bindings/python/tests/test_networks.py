@@ -41,6 +41,8 @@ def check(mapping, source, target):
     inside = points[triangles].mean(1)
     back = mapping.apply_inverse(mapping.apply(inside))
     np.testing.assert_allclose(back, inside, rtol=0, atol=1e-10)
+    certificate = mapping.certify(points, triangles)[1]
+    assert certificate.certified and certificate.boundary_simple, certificate.message
 
 
 @pytest.mark.parametrize("name", NETWORKS)
