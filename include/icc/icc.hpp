@@ -268,7 +268,7 @@ struct places {
     std::vector<double> bary;         /**< `dim` barycentric coordinates on it for each */
 };
 
-/** A hole, line or point inside a domain of the plane: domain::with_features(). `icc::feature::hole({..})` and
+/** A hole, line, point or region inside a domain of the plane: domain::with_features(). `icc::feature::hole({..})` and
  *  its siblings borrow the coordinates. */
 struct feature {
     std::int32_t kind;           /**< `ICC_FEATURE_*` */
@@ -277,6 +277,11 @@ struct feature {
 
     /** A simple polygon that is cut out. */
     static feature hole(view<const double> vertices) noexcept { return {ICC_FEATURE_HOLE, vertices, 0}; }
+    /** A simple polygon that belongs to the domain. */
+    static feature region(view<const double> vertices) noexcept
+    {
+        return {ICC_FEATURE_REGION, vertices, 0};
+    }
     /** A polyline. */
     static feature line(view<const double> vertices) noexcept { return {ICC_FEATURE_LINE, vertices, 0}; }
     /** A point. With a radius, the circle around it moves along. */

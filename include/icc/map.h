@@ -55,7 +55,7 @@ typedef struct icc_domain_info {
      *  positive as seen from an inner point */
     int32_t orientation;
     size_t n_vertices;         /**< vertices of the boundary and of all features */
-    size_t n_facets;           /**< facets of the boundary */
+    size_t n_facets;           /**< facets of the boundary, of holes and of regions */
     double lower[ICC_MAX_DIM]; /**< bounding box, lower corner */
     double upper[ICC_MAX_DIM]; /**< bounding box, upper corner */
     /** length, area (2-D) or volume (3-D), without holes. It may overflow to HUGE_VAL if
@@ -65,6 +65,11 @@ typedef struct icc_domain_info {
     /** vertices of the mesh of the inside, including those on the boundary; 0: no mesh */
     size_t n_mesh_vertices;
     size_t n_mesh_simplices; /**< simplices of that mesh */
+    /** with features: places where 3 or more sides meet. A side is a segment between two vertices
+     *  of the outer ring or of features, counted once */
+    size_t n_junctions;
+    size_t n_pieces; /**< with features: connected pieces of all rings, lines and points */
+    size_t n_faces;  /**< with features: parts that rings and lines divide the domain into */
 } icc_domain_info;
 
 /**
@@ -125,21 +130,22 @@ ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_ver
 /** Kinds of features: icc_feature::kind. */
 enum {
     ICC_FEATURE_HOLE = 1, /**< a simple polygon whose inside is not part of the domain */
-    /** a polyline of 2 or more vertices that does not meet itself; with two vertices, a bone */
+    /** a polyline of 2 or more vertices; with two vertices, a bone. It is closed if the last vertex
+     *  repeats the first one */
     ICC_FEATURE_LINE = 2,
     ICC_FEATURE_POINT = 3, /**< one vertex */
-    /** a simple polygon whose inside is part of the domain: a part of it, an island in a hole, or
-     *  another piece of the domain */
+    /** a simple polygon whose inside is part of the domain: for example a county, an island in a
+     *  hole, or a polygon beside the outer ring */
     ICC_FEATURE_REGION = 4
 };
 
-/** A hole, line or point inside a domain of the plane. A map takes it to the feature of the same
- *  number in the other domain: vertex to vertex, and edge to edge linearly. */
+/** A hole, line, point or region of a domain of the plane. A map takes it to the feature of the
+ *  same number in the other domain: vertex to vertex, and edge to edge linearly. */
 typedef struct icc_feature {
     /** set by the caller: `sizeof(icc_feature)`, the same for all elements of an array */
     size_t size;
     int32_t kind;           /**< `ICC_FEATURE_*` */
-    size_t n_vertices;      /**< hole: at least 3; line: at least 2; point: 1 */
+    size_t n_vertices;      /**< hole, region: at least 3; line: at least 2; point: 1 */
     const double *vertices; /**< 2 n_vertices coordinates */
     /** point: its size, if above 0, see icc_domain_create_features(). Otherwise 0 */
     double radius;
@@ -148,32 +154,42 @@ typedef struct icc_feature {
 } icc_feature;
 
 /**
- * Makes a domain of the plane with features inside: holes, lines and points. You choose where a map
- * takes them.
+ * Makes a domain of the plane with features inside: holes, lines, points and regions. You choose
+ * where a map takes them.
  *
  * The vertices of the domain are those of the outer ring, followed by those of the features in
- * their order. Its facets are the edges of the outer ring, followed by the edges of the holes.
+ * their order. Its facets are the edges of the outer ring, followed by the edges of the holes and
+ * then by those of the regions.
  *
- * Features must lie strictly inside the outer ring and outside all holes. They must not meet
- * themselves or one another. libicc checks all of this exactly, with the coordinates as given.
- * Rings may run either way. Two cases are refused that you can solve yourself:
- * - A hole touches the outer ring in a point. The domain would be pinched there, so merge the two
- *   rings.
- * - A point lies on the boundary. Make it a vertex of the ring.
+ * *Where the domain is.* A place belongs to the domain if it lies in more of the outer ring and the
+ * regions than of the holes. So a region inside the outer ring divides the domain, a region in a
+ * hole is an island, and a region outside adds to the domain. With regions, `n_outer` may be 0. A
+ * region with holes is a region and holes.
+ *
+ * *Features may share vertices*, whose coordinates must be exactly equal: with each other, with the
+ * outer ring and with themselves. They may run along the same edges, so regions can share borders,
+ * and lines can end on the boundary. The other domain of a map must share the same vertices, and
+ * around each of them the edges must leave in the same order. libicc checks exactly, with the
+ * coordinates as given, that
+ * - edges meet only at common vertices; no vertex lies inside another edge
+ * - no line repeats a vertex at once or runs along an edge twice
+ * - each ring is a simple polygon; rings may run either way
+ * - two rings share no edge, unless one of them is a region
+ * - nothing lies outside the domain.
  *
  * A point with a radius is a handle with a size. The circle around it moves along and may grow or
  * shrink, but does not turn. The domain represents the circle by a line of 16 vertices, a regular
  * polygon that lacks one edge. These lines become further features. They follow all given features,
  * in the order of their points. In the other domain the same points must have a radius.
  *
- * For icc_domain_locate(), points in a hole are outside, and points on a line or at a point feature
- * are inside. Only mesh maps (::ICC_MAP_MESH) work on a domain with features. Other functions that
- * take a domain refuse it with ::ICC_ERR_UNSUPPORTED. Without features the result is that of
- * icc_domain_create().
+ * For icc_domain_locate(), points in a hole are outside. Points on a line, at a point feature or on
+ * a border between regions are inside. Only mesh maps (::ICC_MAP_MESH) work on a domain with
+ * features. Other functions that take a domain refuse it with ::ICC_ERR_UNSUPPORTED. Without
+ * features the result is that of icc_domain_create().
  *
  * @param[out] out   the domain; owned by the caller, see icc_domain_free()
- * @param n_outer    vertices of the outer ring, at least 3
- * @param outer      2 n_outer coordinates
+ * @param n_outer    vertices of the outer ring, at least 3; with regions it may be 0
+ * @param outer      2 n_outer coordinates; NULL if n_outer is 0
  * @param n_features number of features
  * @param features   n_features of them; they are copied
  * @param env        may be NULL
@@ -181,8 +197,9 @@ typedef struct icc_feature {
  *                   Otherwise `index` is the feature (::ICC_ITEM_FEATURE), and the message names
  *                   its vertex and any other feature involved. Circles are numbered from n_features
  * @return ::ICC_OK, or
- * - ::ICC_ERR_OUTSIDE if a feature is not strictly inside the outer ring, or lies in a hole
- * - ::ICC_ERR_BOUNDARY if a ring or line meets itself, two features meet, or two points coincide
+ * - ::ICC_ERR_OUTSIDE if a feature lies outside the domain, or crosses or touches the outer ring
+ *   elsewhere than at a common vertex
+ * - ::ICC_ERR_BOUNDARY if features meet themselves or one another elsewhere than at a common vertex
  * - ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
  * Cost: O(n log n) time and O(n) memory for n vertices in all.
@@ -362,11 +379,11 @@ ICC_API icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info
 typedef struct icc_feature_info {
     size_t size;  /**< set by the caller: `sizeof(icc_feature_info)` */
     int32_t kind; /**< `ICC_FEATURE_*` */
-    /** hole: +1 if it is listed counter-clockwise (y upwards), -1 if clockwise; else 0 */
+    /** hole or region: +1 if it is listed counter-clockwise (y upwards), -1 if clockwise; else 0 */
     int32_t orientation;
     size_t first_vertex; /**< number of its first vertex in the domain; the others follow */
     size_t n_vertices;   /**< number of its vertices */
-    /** hole: number of the facet from its first vertex to the next. The hole has as many facets
+    /** hole or region: number of the facet from its first vertex to the next. It has as many facets
      *  as vertices. Else 0 */
     size_t first_facet;
 } icc_feature_info;
@@ -399,7 +416,8 @@ ICC_API icc_status icc_domain_get_mesh(const icc_domain *domain, icc_mesh *mesh)
 
 /**
  * Copies the boundary as it was given. If the domain has features, the vertices include those of
- * all features, and the facets include those of the holes.
+ * all features, and the facets include those of the holes and regions. With regions, some facets
+ * may lie inside the domain.
  *
  * @param domain        the domain
  * @param[out] vertices room for n_vertices * dim doubles, or NULL

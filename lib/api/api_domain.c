@@ -4,7 +4,7 @@
 #include "base/options.h"
 #include "base/threads.h"
 #include "domain/domain.h"
-#include "domain/features.h"
+#include "domain/network.h"
 #include "geometry/simplices.h"
 
 #include <string.h>
@@ -27,6 +27,11 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
     full.n_facets = domain->n_facets;
     full.n_features = domain->features != NULL ? domain->features->n : 0;
     full.n_mesh_vertices = domain->mesh != NULL ? domain->mesh->n_points : 0;
+    if (domain->features != NULL) {
+        full.n_junctions = domain->features->network->n_junctions;
+        full.n_pieces = domain->features->network->n_pieces;
+        full.n_faces = domain->features->network->n_faces;
+    }
     full.n_mesh_simplices = domain->mesh != NULL ? domain->mesh->n_simplices : 0;
     iccp_frame_out(frame, domain->dim, domain->lower, full.lower);
     iccp_frame_out(frame, domain->dim, domain->upper, full.upper);

@@ -69,6 +69,7 @@ IS(ICC_DEFECT_FLAT, 6);
 IS(ICC_FEATURE_HOLE, 1);
 IS(ICC_FEATURE_LINE, 2);
 IS(ICC_FEATURE_POINT, 3);
+IS(ICC_FEATURE_REGION, 4);
 
 IS(ICC_METHOD_GRADIENT, 1);
 IS(ICC_METHOD_FOLIATION, 2);
@@ -179,7 +180,7 @@ AT(icc_env, parallel_for, 48);
 AT(icc_env, threads, 56);
 AT(icc_env, load_limit, 64);
 
-SIZE(icc_domain_info, 160);
+SIZE(icc_domain_info, 184);
 AT(icc_domain_info, size, 0);
 AT(icc_domain_info, dim, 8);
 AT(icc_domain_info, orientation, 12);
@@ -191,6 +192,9 @@ AT(icc_domain_info, measure, 128);
 AT(icc_domain_info, n_features, 136);
 AT(icc_domain_info, n_mesh_vertices, 144);
 AT(icc_domain_info, n_mesh_simplices, 152);
+AT(icc_domain_info, n_junctions, 160);
+AT(icc_domain_info, n_pieces, 168);
+AT(icc_domain_info, n_faces, 176);
 
 SIZE(icc_match_options, 48);
 AT(icc_match_options, size, 0);

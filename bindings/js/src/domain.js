@@ -7,7 +7,7 @@ import { exactly, flat, indices, meshOf, ring, sidesOf, whole } from './points.j
 const DEFECTS = constantNames('ICC_DEFECT_');
 
 const feature = (kind, points, radius = 0) => {
-  const vertices = kind === 'hole' ? ring(points) : flat(points, 2);
+  const vertices = kind === 'hole' || kind === 'region' ? ring(points) : flat(points, 2);
   return { kind, nVertices: vertices.length / 2, vertices, radius };
 };
 

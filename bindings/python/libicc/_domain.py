@@ -188,7 +188,7 @@ class Domain(Handle):
     @property
     def info(self) -> SimpleNamespace:
         """dim, orientation, n_vertices, n_facets, lower, upper, measure, n_features,
-        n_mesh_vertices, n_mesh_simplices."""
+        n_mesh_vertices, n_mesh_simplices, n_junctions, n_pieces, n_faces."""
         info = self._info("domain_get_info", "domain_info")
         return fields(info, info.dim)
 

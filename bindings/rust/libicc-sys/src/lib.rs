@@ -263,7 +263,7 @@ pub struct icc_domain_info {
     pub orientation: i32,
     /// vertices of the boundary and of all features
     pub n_vertices: usize,
-    /// facets of the boundary
+    /// facets of the boundary, of holes and of regions
     pub n_facets: usize,
     /// bounding box, lower corner
     pub lower: [f64; ICC_MAX_DIM],
@@ -278,6 +278,13 @@ pub struct icc_domain_info {
     pub n_mesh_vertices: usize,
     /// simplices of that mesh
     pub n_mesh_simplices: usize,
+    /// with features: places where 3 or more sides meet. A side is a segment between two vertices of the
+    /// outer ring or of features, counted once
+    pub n_junctions: usize,
+    /// with features: connected pieces of all rings, lines and points
+    pub n_pieces: usize,
+    /// with features: parts that rings and lines divide the domain into
+    pub n_faces: usize,
 }
 sized!(icc_domain_info);
 
@@ -298,13 +305,17 @@ sized!(icc_fill_options);
 // Kinds of features: `icc_feature.kind`.
 /// a simple polygon whose inside is not part of the domain
 pub const ICC_FEATURE_HOLE: i32 = 1;
-/// a polyline of 2 or more vertices that does not meet itself; with two vertices, a bone
+/// a polyline of 2 or more vertices; with two vertices, a bone. It is closed if the last vertex repeats the
+/// first one
 pub const ICC_FEATURE_LINE: i32 = 2;
 /// one vertex
 pub const ICC_FEATURE_POINT: i32 = 3;
+/// a simple polygon whose inside is part of the domain: for example a county, an island in a hole, or a
+/// polygon beside the outer ring
+pub const ICC_FEATURE_REGION: i32 = 4;
 
-/// A hole, line or point inside a domain of the plane. A map takes it to the feature of the same number in
-/// the other domain: vertex to vertex, and edge to edge linearly.
+/// A hole, line, point or region of a domain of the plane. A map takes it to the feature of the same number
+/// in the other domain: vertex to vertex, and edge to edge linearly.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_feature {
@@ -312,7 +323,7 @@ pub struct icc_feature {
     pub size: usize,
     /// `ICC_FEATURE_*`
     pub kind: i32,
-    /// hole: at least 3; line: at least 2; point: 1
+    /// hole, region: at least 3; line: at least 2; point: 1
     pub n_vertices: usize,
     /// 2 n_vertices coordinates
     pub vertices: *const f64,
@@ -365,14 +376,14 @@ pub struct icc_feature_info {
     pub size: usize,
     /// `ICC_FEATURE_*`
     pub kind: i32,
-    /// hole: +1 if it is listed counter-clockwise (y upwards), -1 if clockwise; else 0
+    /// hole or region: +1 if it is listed counter-clockwise (y upwards), -1 if clockwise; else 0
     pub orientation: i32,
     /// number of its first vertex in the domain; the others follow
     pub first_vertex: usize,
     /// number of its vertices
     pub n_vertices: usize,
-    /// hole: number of the facet from its first vertex to the next. The hole has as many facets as vertices.
-    /// Else 0
+    /// hole or region: number of the facet from its first vertex to the next. It has as many facets as
+    /// vertices. Else 0
     pub first_facet: usize,
 }
 sized!(icc_feature_info);
@@ -832,7 +843,8 @@ pub struct icc_match_info {
     pub n_landmarks: usize,
     /// common vertices that are vertices of both given domains
     pub n_joined: usize,
-    /// cost of the outer rings' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length and in space
+    /// cost of the outlines' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length and in space. Of
+    /// several parts: `cost` to `turn` and `mirrored` are about the one whose pairing by shape is least sure
     pub cost: f64,
     /// cost of the best pairing that differs from this one by more than 5 % of the perimeter. HUGE_VAL if
     /// none was found or if there were landmarks
@@ -1221,32 +1233,43 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes a domain of the plane with features inside: holes, lines and points. You choose where a map
-    /// takes them.
+    /// Makes a domain of the plane with features inside: holes, lines, points and regions. You choose where a
+    /// map takes them.
     ///
     /// The vertices of the domain are those of the outer ring, followed by those of the features in their
-    /// order. Its facets are the edges of the outer ring, followed by the edges of the holes.
+    /// order. Its facets are the edges of the outer ring, followed by the edges of the holes and then by
+    /// those of the regions.
     ///
-    /// Features must lie strictly inside the outer ring and outside all holes. They must not meet themselves
-    /// or one another. libicc checks all of this exactly, with the coordinates as given. Rings may run either
-    /// way. Two cases are refused that you can solve yourself:
+    /// *Where the domain is.* A place belongs to the domain if it lies in more of the outer ring and the
+    /// regions than of the holes. So a region inside the outer ring divides the domain, a region in a hole is
+    /// an island, and a region outside adds to the domain. With regions, `n_outer` may be 0. A region with
+    /// holes is a region and holes.
     ///
-    /// - A hole touches the outer ring in a point. The domain would be pinched there, so merge the two rings.
-    /// - A point lies on the boundary. Make it a vertex of the ring.
+    /// *Features may share vertices*, whose coordinates must be exactly equal: with each other, with the
+    /// outer ring and with themselves. They may run along the same edges, so regions can share borders, and
+    /// lines can end on the boundary. The other domain of a map must share the same vertices, and around each
+    /// of them the edges must leave in the same order. libicc checks exactly, with the coordinates as given,
+    /// that
+    ///
+    /// - edges meet only at common vertices; no vertex lies inside another edge
+    /// - no line repeats a vertex at once or runs along an edge twice
+    /// - each ring is a simple polygon; rings may run either way
+    /// - two rings share no edge, unless one of them is a region
+    /// - nothing lies outside the domain.
     ///
     /// A point with a radius is a handle with a size. The circle around it moves along and may grow or
     /// shrink, but does not turn. The domain represents the circle by a line of 16 vertices, a regular
     /// polygon that lacks one edge. These lines become further features. They follow all given features, in
     /// the order of their points. In the other domain the same points must have a radius.
     ///
-    /// For `icc_domain_locate()`, points in a hole are outside, and points on a line or at a point feature
-    /// are inside. Only mesh maps (`ICC_MAP_MESH`) work on a domain with features. Other functions that take
-    /// a domain refuse it with `ICC_ERR_UNSUPPORTED`. Without features the result is that of
-    /// `icc_domain_create()`.
+    /// For `icc_domain_locate()`, points in a hole are outside. Points on a line, at a point feature or on a
+    /// border between regions are inside. Only mesh maps (`ICC_MAP_MESH`) work on a domain with features.
+    /// Other functions that take a domain refuse it with `ICC_ERR_UNSUPPORTED`. Without features the result
+    /// is that of `icc_domain_create()`.
     ///
     /// - `out` (out): the domain; owned by the caller, see `icc_domain_free()`
-    /// - `n_outer`: vertices of the outer ring, at least 3
-    /// - `outer`: 2 n_outer coordinates
+    /// - `n_outer`: vertices of the outer ring, at least 3; with regions it may be 0
+    /// - `outer`: 2 n_outer coordinates; NULL if n_outer is 0
     /// - `n_features`: number of features
     /// - `features`: n_features of them; they are copied
     /// - `env`: may be NULL
@@ -1256,8 +1279,9 @@ extern "C" {
     ///
     /// Returns `ICC_OK`, or
     ///
-    /// - `ICC_ERR_OUTSIDE` if a feature is not strictly inside the outer ring, or lies in a hole
-    /// - `ICC_ERR_BOUNDARY` if a ring or line meets itself, two features meet, or two points coincide
+    /// - `ICC_ERR_OUTSIDE` if a feature lies outside the domain, or crosses or touches the outer ring
+    ///   elsewhere than at a common vertex
+    /// - `ICC_ERR_BOUNDARY` if features meet themselves or one another elsewhere than at a common vertex
     /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     ///
     /// Cost: O(n log n) time and O(n) memory for n vertices in all.
@@ -1433,7 +1457,8 @@ extern "C" {
     ) -> icc_status;
 
     /// Copies the boundary as it was given. If the domain has features, the vertices include those of all
-    /// features, and the facets include those of the holes.
+    /// features, and the facets include those of the holes and regions. With regions, some facets may lie
+    /// inside the domain.
     ///
     /// - `domain`: the domain
     /// - `vertices` (out): room for n_vertices * dim doubles, or NULL
@@ -1835,11 +1860,19 @@ extern "C" {
     /// same number of vertices, and vertex i clearly belongs to vertex i + k for some k, they are paired
     /// vertex by vertex (not by arc length). So the result of a match passes through another match unchanged.
     ///
-    /// *Features.* Each hole, line and point is paired with one of its kind. The outer rings' pairing
-    /// predicts where each should lie in the target, by mean value coordinates. The assignment minimises the
-    /// sum of squared distances to these places. Holes and lines are then paired along themselves: holes from
-    /// where they lie nearest, lines from end to end. The result has the source's features, in its order and
-    /// directions, and their partners in the target.
+    /// *Several outlines.* A domain may have several parts: regions beside one another, or an island in a
+    /// hole. Both domains must have as many. Parts are paired by their places in the bounding box of the
+    /// whole, by the roots of their shares of the area, and by twice their numbers of holes, at the least sum
+    /// of squares. Then outlines are paired part by part. A part whose shape is ambiguous, such as the round
+    /// dot of an i, is turned as the whole is turned. The whole should lie upright in both domains, or
+    /// landmarks should tell which parts belong together.
+    ///
+    /// *Features.* Each hole, line and point is paired with one of its kind in the partner of its part. The
+    /// pairing of the outline around it predicts where it should lie in the target, by mean value
+    /// coordinates. The assignment minimises the sum of squared distances to these places. Holes, closed
+    /// lines and regions inside others are then paired along themselves from where they lie nearest, lines
+    /// from end to end. The result has the source's features, in its order and directions, and their partners
+    /// in the target. Features that meet one another or the outer ring are refused.
     ///
     /// *Surfaces.* In space the two surfaces get common triangles. Both are drawn on the sphere, one-to-one,
     /// and cut by one another there. Both are then simplified together up to `icc_match_options.tolerance`,
@@ -1860,8 +1893,8 @@ extern "C" {
     ///
     /// - `out` (out): the match; owned by the caller, see `icc_match_free()`
     /// - `source`: a domain of the plane, possibly with features, or a surface in space without a mesh
-    /// - `target`: likewise, of the same dimension. It has as many holes, lines, points, and points with a
-    ///   radius
+    /// - `target`: likewise, of the same dimension. It has as many parts, holes, regions inside others,
+    ///   lines, closed lines, points, and points with a radius
     /// - `n_landmarks`: number of pairs of points that are known, at most 1000; in space 128
     /// - `landmarks`: n_landmarks * 2 dim coordinates: a point of the source, followed by its partner in the
     ///   target. Or NULL if there are none. In the plane a point on the boundary is taken as it is. Any other
@@ -1875,13 +1908,13 @@ extern "C" {
     /// Returns `ICC_OK`, or
     ///
     /// - `ICC_ERR_AMBIGUOUS` if another pairing is nearly as good: give a landmark, or ask for arc length.
-    ///   Also if two features could change places: `index` is one of the source's, and a landmark on it
-    ///   decides
+    ///   Also if two features or parts could change places: `index` is one of the source's, and a landmark on
+    ///   it decides
     /// - `ICC_ERR_ARGUMENT` if a landmark is more than 2 % of the diameter off an outline, coincides with
     ///   another one, comes in a different order on the two outlines, or pairs features of different kinds
-    /// - `ICC_ERR_UNSUPPORTED` for another dimension, or a domain with a mesh
-    /// - `ICC_ERR_BOUNDARY` if the numbers of features differ; or if common vertices cannot be told apart in
-    ///   doubles, where `index` is one of them
+    /// - `ICC_ERR_UNSUPPORTED` for another dimension, a domain with a mesh, or features that meet
+    /// - `ICC_ERR_BOUNDARY` if the numbers of parts or features differ; or if common vertices cannot be told
+    ///   apart in doubles, where `index` is one of them
     /// - `ICC_ERR_RESOLUTION` if the triangles of a surface differ too much in size to be drawn on the sphere
     ///   in doubles. Also if landmarks differ so much in position that paths between them take too many
     ///   vertices

@@ -58,13 +58,15 @@ pub struct Defect {
     pub items: [u32; 2],
 }
 
-/// A hole, line or point inside a domain of the plane: x and y of each vertex. See [`Domain::with_features`].
+/// A hole, line, point or region inside a domain of the plane: x and y of each vertex. See [`Domain::with_features`].
 #[derive(Clone, Copy, Debug)]
 pub enum Feature<'a> {
     /// A simple polygon that is cut out.
     Hole(&'a [f64]),
     /// A polyline; with two vertices, a bone.
     Line(&'a [f64]),
+    /// A simple polygon that belongs to the domain.
+    Region(&'a [f64]),
     /// One vertex.
     Point(&'a [f64; 2]),
     /// A point with a size: the circle of this radius around it moves along and may grow or shrink, but does not turn.
@@ -76,6 +78,7 @@ impl Feature<'_> {
     fn raw(&self) -> Result<sys::icc_feature> {
         let (kind, vertices): (i32, &[f64]) = match self {
             Feature::Hole(vertices) => (sys::ICC_FEATURE_HOLE, vertices),
+            Feature::Region(vertices) => (sys::ICC_FEATURE_REGION, vertices),
             Feature::Line(vertices) => (sys::ICC_FEATURE_LINE, vertices),
             Feature::Point(vertex) | Feature::Handle(vertex, _) => (sys::ICC_FEATURE_POINT, &vertex[..]),
         };
