@@ -1113,8 +1113,8 @@ pub struct icc_certificate {
     /// 1: every simplex keeps its orientation and both boundaries are simple, so the mesh and its image are
     /// one-to-one
     pub certified: i32,
-    /// 1: no part of the boundary meets itself or another part, and the mesh lies on one side of it. The same
-    /// is true of the image
+    /// 1: no part of the boundary meets itself or another part, except at common vertices in 2-D, and the
+    /// mesh lies on one side of it. The same is true of the image
     pub boundary_simple: i32,
     /// simplices whose image has the opposite orientation
     pub n_inverted: usize,
@@ -2188,7 +2188,7 @@ extern "C" {
     /// straight where the map bends.
     ///
     /// The mesh may have holes, voids and handles, and several pieces. Each facet belongs to one simplex or
-    /// two. No vertex or edge belongs to two parts of the boundary.
+    /// two. In 3-D no vertex or edge belongs to two parts of the boundary.
     ///
     /// - `map`: a map in 2-D or 3-D, else `ICC_ERR_UNSUPPORTED`
     /// - `mesh`: a mesh of the map's dimension, with its vertices in the source
