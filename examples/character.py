@@ -4,7 +4,7 @@
     python3 examples/character.py FOLDER      writes character.geojson
 
 The outline is drawn round the joints of five limbs, so that it has the same vertices in every pose; the bones are
-lines inside. Import it for poses in between: rig(share) gives the outline and the bones, from rest (0) to posed (1).
+lines inside, and each limb begins at a joint of the spine. Import it for poses in between: rig(share) gives the outline and the bones, from rest (0) to posed (1).
 """
 
 import json
@@ -52,7 +52,8 @@ def rig(share):
         spine[:1] + [0, -.75], sides(right_leg, LEG), spine[1:2] + [.75, 0], sides(right_arm, ARM),
         spine[2:3] + [.32, .55], head, spine[2:3] + [-.32, .55],
         sides(left_arm, ARM), spine[1:2] - [.75, 0], sides(left_leg, LEG)])
-    return outline, [spine, right_leg, right_arm, left_arm, left_leg]
+    return outline, [spine, *(np.vstack([joint, limb]) for joint, limb in (
+        (spine[0], right_leg), (spine[2], right_arm), (spine[2], left_arm), (spine[0], left_leg)))]
 
 
 def feature(kind, places, **properties):

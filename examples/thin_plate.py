@@ -62,12 +62,14 @@ def along(vertices, closed, pieces=4):
 
 
 def controls(features):
-    """All points that a spline has to go through."""
+    """All points that a spline has to go through. Where lines meet, points are listed more than once."""
     return np.vstack([along(places, kind == "ring") for kind, places in features])
 
 
 def spline(points, images):
     """The spline that takes points (n, 2) to their images, as a function of points (m, 2)."""
+    points, once = np.unique(points, axis=0, return_index=True)
+    images = images[once]
     middle, size = points.mean(axis=0), np.ptp(points)
     points = (points - middle) / size
 
@@ -189,7 +191,7 @@ def main():
     source, target = domain(before), domain(after)
     mapping = libicc.Map(source, target)
     share = folded(spline(controls(before), controls(after)), *evenly(source))
-    print(f"thin-plate spline through {len(controls(before))} points: {100 * share:.1f} % of the shape is turned over")
+    print(f"thin-plate spline through {len(np.unique(controls(before), axis=0))} points: {100 * share:.1f} % of the shape is turned over")
     proof = "certified, none" if mapping.certified else "not certified"
     print(f"libicc: {mapping.info.n_simplices} triangles, {proof}")
     layer = read_layer(options.layer) if options.layer else []

@@ -91,3 +91,25 @@ def test_a_source_that_keeps_its_mesh():
     assert match.origins()[0][:6].tolist() == list(range(6))
     with pytest.raises(libicc.ArgumentError, match="keep_source"):
         libicc.Match(source, target, keep_source=2)
+
+
+def test_several_outlines_are_matched():
+    def ring(x, y, size, n, first=0):
+        turns = 2 * np.pi * (np.arange(n) + first) / n
+        return np.column_stack([x + size * np.cos(turns), y + size * np.sin(turns)])
+
+    def glyph(width, n):  # an i: a round dot over a stem, in either order
+        stem = [[0, 0], [width, 0], [width, 10], [0, 10]]
+        parts = [ring(width / 2, 13, 1, n, n / 3), stem]
+        return {"type": "MultiPolygon", "coordinates": [[np.vstack([p, p[:1]]).tolist()]
+                                                        for p in (parts if n > 15 else parts[::-1])]}
+
+    match = libicc.Match(glyph(2, 14), glyph(2.5, 20))
+    assert [kind for kind, _ in match.source.features] == ["region", "region"]
+    assert [vertices[:, 1].max() > 11 for _, vertices in match.target.features] == [False, True]
+    mapping = libicc.Map(match.source, match.target)
+    assert mapping.certified
+    top = mapping([[1, 13.9]])[0]
+    assert abs(top[0] - 1.25) < .2 and top[1] > 13.8
+    with pytest.raises(libicc.BoundaryError, match="the source has 2 parts, the target 1"):
+        libicc.Match(glyph(2, 14), [[0, 0], [1, 0], [0, 1]])
