@@ -1,5 +1,6 @@
 /* Maps of random networks: features that share vertices, dead ends, several pieces, holes that
  * touch, and points. */
+#include "../flat_mesh.h"
 #include "../random_networks.h"
 #include "../share.h"
 #include "../suite.h"
@@ -65,6 +66,31 @@ START_TEST(improved)
 }
 END_TEST
 
+START_TEST(the_same_bits_on_many_threads)
+{
+    random_network w;
+    double *images[2];
+    size_t n[2];
+    network_create(&w, 4, MOST_POINTS);
+    for (int k = 0; k < 2; ++k) {
+        const icc_env env = {.size = sizeof env, .threads = k == 0 ? 1 : 3};
+        icc_map_info info = {.size = sizeof info};
+        icc_map *map;
+        ck_assert_int_eq(icc_map_create(&map, w.domain[0], w.domain[1], NULL, &env, NULL), ICC_OK);
+        (void)icc_map_get_info(map, &info);
+        n[k] = info.n_vertices;
+        images[k] = malloc(2 * n[k] * sizeof **images);
+        ck_assert_int_eq(flat_get_mesh(map, NULL, images[k], NULL), ICC_OK);
+        icc_map_free(map);
+    }
+    ck_assert_uint_eq(n[0], n[1]);
+    ck_assert_mem_eq(images[0], images[1], 2 * n[0] * sizeof **images);
+    free(images[0]);
+    free(images[1]);
+    network_free(&w);
+}
+END_TEST
+
 /* About 3,000 faces. */
 START_TEST(many_faces)
 {
@@ -80,6 +106,7 @@ int main(void)
     tcase_set_timeout(tests, 240);
     tcase_add_test(tests, starts);
     tcase_add_test(tests, improved);
+    tcase_add_test(tests, the_same_bits_on_many_threads);
     tcase_add_test(tests, many_faces);
     suite_add_tcase(suite, tests);
     return suite_run(suite);

@@ -3,6 +3,7 @@
 #include "mesh/vertex_fans.h"
 
 #include "../../../default_env.h"
+#include "../../../faulty.h"
 #include "../../../suite.h"
 
 #include <check.h>
@@ -199,6 +200,28 @@ START_TEST(fans_at_vertices)
 }
 END_TEST
 
+static icc_status create(const icc_env *env, icc_error *err, void *argument)
+{
+    icc_domain *const *domain = argument;
+    icc_map *map;
+    const icc_status status = icc_map_create(&map, domain[0], domain[1], NULL, env, err);
+    ck_assert((map != NULL) == (status == ICC_OK));
+    icc_map_free(map);
+    return status;
+}
+
+START_TEST(failures)
+{
+    icc_domain *pairs[3][2] = {{chain_of_holes(8, 2), chain_of_holes(11, 9)},
+                               {two_parts(1), two_parts(3)},
+                               {crossed(6, 6), crossed(4, 9)}};
+    for (size_t k = 0; k < 3; ++k) {
+        faulty_sweep(create, pairs[k]);
+        release(pairs[k][0], pairs[k][1]);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("cuts of networks");
@@ -207,6 +230,8 @@ int main(void)
     tcase_add_test(tests, parts);
     tcase_add_test(tests, faces);
     tcase_add_test(tests, fans_at_vertices);
+    tcase_add_test(tests, failures);
+    tcase_set_timeout(tests, 60);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
 }
