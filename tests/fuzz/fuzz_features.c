@@ -4,7 +4,7 @@
  *
  * Byte 0 chooses how the rest is read: with its lowest bit, as the bytes of a domain; else by
  * coordinates.h. Then a chain after the other, the outer ring first: a byte with the kind and the
- * number of vertices, and two bytes for each. */
+ * number of vertices, and two bytes for each. A hole whose byte is 128 or more is a region. */
 #include "icc/icc.h"
 
 #include "blobs.h"
@@ -25,10 +25,12 @@ typedef struct input {
 
 static void read_input(input *in, const uint8_t *data, size_t size)
 {
-    static const size_t least[] = {0, 3, 2, 1};
+    static const size_t least[] = {0, 3, 2, 1, 3};
     in->n_outer = in->n = in->n_vertices = 0;
     for (size_t at = 1; at < size && in->n < MAX_CHAINS;) {
-        const int32_t kind = in->n_outer == 0 ? ICC_FEATURE_HOLE : 1 + data[at] % 3;
+        int32_t kind = in->n_outer == 0 ? ICC_FEATURE_HOLE : 1 + data[at] % 3;
+        if (in->n_outer > 0 && kind == ICC_FEATURE_HOLE && data[at] >= 128)
+            kind = ICC_FEATURE_REGION;
         size_t n = kind == ICC_FEATURE_POINT ? 1 : least[kind] + data[at] / 4 % 16;
         ++at;
         n = n < (size - at) / 2 ? n : (size - at) / 2;
@@ -133,24 +135,31 @@ static void check_domain(icc_domain *domain, const input *in)
 {
     static uint8_t bytes[LARGEST];
     icc_domain_info info = {.size = sizeof info};
+    int has_regions = 0;
     require(icc_domain_get_info(domain, &info) == ICC_OK);
     require(info.n_vertices == in->n_vertices && info.n_features == in->n && info.measure >= 0);
+    require(in->n == 0 || (info.n_pieces > 0 && info.n_faces > 0));
+    for (size_t f = 0; f < in->n; ++f)
+        has_regions |= in->features[f].kind == ICC_FEATURE_REGION;
     for (size_t f = 0; f < in->n; ++f) {
         icc_feature_info feature = {.size = sizeof feature};
         require(icc_domain_get_feature(domain, f, &feature) == ICC_OK);
         require(feature.kind == in->features[f].kind &&
                 feature.n_vertices == in->features[f].n_vertices);
-        require((feature.orientation != 0) == (feature.kind == ICC_FEATURE_HOLE));
+        require((feature.orientation != 0) ==
+                (feature.kind == ICC_FEATURE_HOLE || feature.kind == ICC_FEATURE_REGION));
         for (size_t v = 0; v < feature.n_vertices; ++v) {
             int32_t where;
             uint32_t facet;
             double bary[2];
             require(icc_domain_locate(domain, 1, in->features[f].vertices + 2 * v, &where, &facet,
                                       bary, NULL) == ICC_OK);
-            require(feature.kind != ICC_FEATURE_HOLE || where == ICC_BOUNDARY);
+            /* A region may hide the side of a hole */
+            require(feature.kind != ICC_FEATURE_HOLE || has_regions || where == ICC_BOUNDARY);
             require(where != ICC_OUTSIDE && facet < info.n_facets);
         }
-        require(can_be_made(in, f, 1));
+        /* A feature may lie in a region that lies outside the outer ring */
+        require(has_regions || can_be_made(in, f, 1));
     }
     if (in->n > 0)
         check_bytes(bytes, save(domain, bytes, LARGEST));
