@@ -200,6 +200,41 @@ def matched():
     return figure
 
 
+def glyphs():
+    """Glyphs of two typefaces. Each place of the second has the colour of the place that it comes from."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import TextPath
+
+    def glyph(text, family):
+        rings = [ring[:-1] for ring in TextPath((0, 0), text, size=100, prop=FontProperties(family=family))
+                 .to_polygons(closed_only=True)]
+        rings = [ring[np.hypot(*(ring - np.roll(ring, 1, 0)).T) > 1e-6] for ring in rings]
+        areas = [(ring[:, 0] * np.roll(ring[:, 1], -1) - ring[:, 1] * np.roll(ring[:, 0], -1)).sum() for ring in rings]
+        largest = max(areas, key=abs)
+        return libicc.Domain(None, features=[("region" if area * largest > 0 else "hole", ring)
+                                             for area, ring in zip(areas, rings)])
+
+    figure, axes = panels(6, (12, 3))
+    for k, text in enumerate("i%ä"):
+        match = libicc.Match(glyph(text, "DejaVu Sans"), glyph(text, "DejaVu Serif"))
+        mapping = libicc.Map(match.source, match.target)
+        low, high = match.source.vertices.min(0), match.source.vertices.max(0)
+        x, y = np.meshgrid(*(np.linspace(a, b, 260) for a, b in zip(low, high)))
+        places = np.column_stack([x.ravel(), y.ravel()])
+        images = mapping(places)
+        inside = np.isfinite(images[:, 0])
+        share = (places - low) / (high - low)
+        bands = (share * 6).astype(int).sum(1) % 2
+        colours = plt.cm.turbo(.1 + .8 * share[:, 1]) * (1 - .35 * bands[:, None])
+        colours[:, 3] = 1
+        for ax, domain, at in zip(axes[2 * k:], (match.source, match.target), (places, images)):
+            ax.scatter(*at[inside].T, c=colours[inside], s=2, lw=0, rasterized=True)
+            for _, ring in domain.features:
+                ax.plot(*np.vstack([ring, ring[:1]]).T, color=INK, lw=1.2)
+    figure.subplots_adjust(.01, .02, .99, .98, .08)
+    return few_colours(figure)
+
+
 def stages_of_the_papers():
     """Grid, tree, function and integral curves of a shape with three legs."""
     shape = np.loadtxt(TOP / "examples/data/tripus.src.txt")
@@ -336,7 +371,7 @@ def grid_lines(n):
 
 PICTURES = {"control-points": control_points, "puppet": puppet, "moving-mesh": moving_mesh, "certify": certify,
             "fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
-            "matched": matched, "stages": stages_of_the_papers, "mesh": mesh}
+            "matched": matched, "glyphs": glyphs, "stages": stages_of_the_papers, "mesh": mesh}
 
 
 def main():
