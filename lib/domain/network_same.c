@@ -150,7 +150,8 @@ static uint32_t find_border(const pair *p, uint32_t first, uint32_t second)
 static icc_status fail_face(const pair *p, uint32_t h)
 {
     const uint32_t own = feature_of_half(p, h);
-    const uint32_t border = find_border(p, p->net[0]->around[h], p->net[1]->around[h]);
+    const uint32_t around[2] = {p->net[0]->around[h], p->net[1]->around[h]};
+    const uint32_t border = find_border(p, around[0], around[1]);
     const uint32_t other = border != NONE ? feature_of_half(p, border) : NONE;
     const bool is_left = border % 2 == 0;
     char names[2][ICCP_FEATURE_TEXT];
@@ -161,8 +162,14 @@ static icc_status fail_face(const pair *p, uint32_t h)
             "%s is on the %s of %s, edge %lu, in the source, but on the %s in the target", name,
             is_left ? "left" : "right", name_feature(p, other, names[1]),
             edge_number(p, other, border), is_left ? "right" : "left");
+    if (around[0] == ICCP_NO_WALK || around[1] == ICCP_NO_WALK)
+        return iccp_fail_at(p->err, ICC_ERR_TOPOLOGY, item_of(own), index_of(own),
+                            "%s lies in another face in the target", name);
+    char within[2][ICCP_FEATURE_TEXT];
     return iccp_fail_at(p->err, ICC_ERR_TOPOLOGY, item_of(own), index_of(own),
-                        "%s lies in another face in the target", name);
+                        "%s lies in a face along %s in the source, but along %s in the target",
+                        name, name_feature(p, feature_of_half(p, around[0]), within[0]),
+                        name_feature(p, feature_of_half(p, around[1]), within[1]));
 }
 
 /* Reports a piece whose outer walk is another one in the target. h is on one of the two walks. */

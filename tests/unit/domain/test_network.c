@@ -359,7 +359,8 @@ static const change changes[] = {
      "right in the target"},
     {{2, {FRAME, LINE(4, {2, 2}, {6, 2}, {6, 6}, {2, 2}), LINE(4, {4, 3}, {5, 3}, {5, 4}, {4, 3})}},
      {2, {FRAME, LINE(4, {4, 3}, {5, 3}, {5, 4}, {4, 3}), LINE(4, {2, 2}, {6, 2}, {6, 6}, {2, 2})}},
-     "feature 0 (a line) lies in another face in the target"},
+     "feature 0 (a line) lies in a face along the outer ring in the source, but along feature 1 (a "
+     "line) in the target"},
     {{2, {FRAME, LINE(3, {0, 0}, {4, 4}, {8, 8}), LINE(2, {4, 4}, {5, 2})}},
      {2, {FRAME, LINE(3, {0, 0}, {4, 4}, {8, 8}), LINE(2, {4, 4}, {3, 6})}},
      "at (4, 4), where 3 sides meet, feature 0 (a line) and feature 1 (a line) change places in "
