@@ -65,7 +65,7 @@ says 'libicc: source.txt:'
 printf 'POLYGON ((0 0, 1 0, 1 1' | rejects 1: "')' is missing"
 printf 'POLYGON ((0 0,\n 1 zero, 1 1))' | rejects 2: "'zero,' is not a number"
 printf 'POLYGON ((0 0, 9 0, 9 9),\n(1 1, 2 1, 1 1))' | rejects 2: 'hole 1 has 2 vertices'
-printf 'MULTIPOLYGON (((0 0, 9 0, 9 9)), ((0 0, 9 0, 9 9), (1 1, 2 1, 2 2)),\n((0 0, 1 1, 1 0)))' | rejects 1: '3 parts'
+printf 'MULTIPOLYGON (((0 0, 9 0, 9 9)), ((0 0, 9 0, 9 9), (1 1, 2 1, 2 2)),\n((0 0, 1 1, 1 0)))' | rejects '' '3 parts'
 printf 'MULTIPOLYGON (((0 0, 9 0, 9 9), (1 1, 2 1, 2 2), (3 3)))' | rejects 1: 'hole 2 has 1 vertex;'
 printf 'MULTIPOLYGON (((0 0, 9 0, 9 9))' | rejects 1: "')' is missing"
 printf 'MULTIPOLYGON EMPTY' | rejects 1: 'is empty'

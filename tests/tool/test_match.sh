@@ -146,8 +146,8 @@ awk 'NR == 1 { exit !($1 == 0 && $2 == 0) } NR == 2 { exit !($1 < 8 && $2 > 30) 
     NR == 4 { exit $1 != "nan" }' out || complain "parts are not paired: $(cat out)"
 run 1 match -s percent.svg -t key.txt
 says 'the source has 3 parts, the target 1'
-run 1 map -s percent.svg -t percent.geojson --match auto --fill-holes -p points.txt
-says '--fill-holes needs one map for each polygon'
+run 0 map -s percent.svg -t percent.geojson --match auto --fill-holes -p points.txt
+sed -n 4p out | grep -q nan && complain "a filled hole has no inside: $(cat out)"
 
 # Wrong usage.
 run 2 match -s key.txt -t turned.txt -o a.txt

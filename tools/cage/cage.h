@@ -65,6 +65,7 @@ typedef struct cage_feature {
                         outlines: the number of their polygon, from 1. Else the number in the
                         file */
     bool of_outline; /* a ring of one of several outlines */
+    bool filled;     /* a line around the inside of a hole */
     size_t ring;     /* of a region or outline, which may have several: its number, from 0 */
     size_t item;     /* of such a ring: its number among the holes, or the others, from 1. Else 0 */
     size_t n;

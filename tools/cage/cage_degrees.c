@@ -8,14 +8,12 @@
 
 #include <stdio.h>
 
-/* True if all coordinates that were read, also of further polygons, may be degrees. */
+/* True if all coordinates that were read may be degrees. */
 static bool is_in_degrees(const cage *c)
 {
     bool good = are_degrees(c->n, c->points);
     for (size_t i = 0; i < c->n_features && good; i++)
         good = are_degrees(c->features[i].n, c->features[i].points);
-    for (size_t i = 0; i < c->n_more && good; i++)
-        good = is_in_degrees(&c->more[i]);
     return good;
 }
 
@@ -45,17 +43,18 @@ static bool all_go_on(const cage *c, problem *wrong)
         snprintf(of, sizeof of, " of %s", feature_name(name, f));
         good = goes_on(f->n, f->points, feature_is_ring(f), of, wrong);
     }
-    for (size_t i = 0; i < c->n_more && good; i++)
-        good = all_go_on(&c->more[i], wrong);
     return good;
 }
 
-/* True if the outer ring has an edge along a meridian. */
+/* True if one of several outlines has an edge along a meridian. */
 static bool runs_along(const cage *c, double x)
 {
-    for (size_t i = 0; i < c->n; i++)
-        if (c->points[2 * i] == x && c->points[2 * ((i + 1) % c->n)] == x)
-            return true;
+    for (size_t k = 0; k < c->n_features; k++) {
+        const cage_feature *f = &c->features[k];
+        for (size_t i = 0; i < f->n && f->of_outline; i++)
+            if (f->points[2 * i] == x && f->points[2 * ((i + 1) % f->n)] == x)
+                return true;
+    }
     return false;
 }
 
@@ -63,12 +62,7 @@ bool cage_check_degrees(cage *c, problem *wrong)
 {
     if (!is_in_degrees(c))
         return true;
-    bool east = runs_along(c, 180), west = runs_along(c, -180);
-    for (size_t i = 0; i < c->n_more; i++) {
-        east = east || runs_along(&c->more[i], 180);
-        west = west || runs_along(&c->more[i], -180);
-    }
-    c->cut = c->n_more > 0 && east && west;
+    c->cut = runs_along(c, 180) && runs_along(c, -180);
     return all_go_on(c, wrong);
 }
 

@@ -20,14 +20,17 @@ static const char *kind_name(int32_t kind)
 const char *feature_name(feature_text out, const cage_feature *f)
 {
     const char *whole = f->of_outline ? "polygon" : "region";
-    bool of_whole = f->item > 0 && f->ring > 0 && !(f->kind != ICC_FEATURE_HOLE && f->item == 1);
+    bool of_whole = f->item > 0 && f->ring > 0 && !(f->kind == ICC_FEATURE_REGION && f->item == 1);
     if (of_whole)
         snprintf(out, sizeof(feature_text), "%s %zu of %s %lld",
-                 f->kind == ICC_FEATURE_HOLE ? "hole" : "part", f->item, whole,
+                 f->kind == ICC_FEATURE_REGION ? "part" : "hole", f->item, whole,
                  (long long)f->number);
     else
         snprintf(out, sizeof(feature_text), "%s %lld",
-                 f->kind == ICC_FEATURE_REGION ? whole : kind_name(f->kind), (long long)f->number);
+                 f->kind == ICC_FEATURE_REGION ? whole
+                 : f->filled                   ? "hole"
+                                               : kind_name(f->kind),
+                 (long long)f->number);
     return out;
 }
 
@@ -49,7 +52,7 @@ size_t cage_count(const cage *c, int32_t kind)
         const cage_feature *f = &c->features[i];
         bool counts = kind == ICC_FEATURE_HOLE     ? !has_region(f)
                       : kind == ICC_FEATURE_REGION ? has_region(f) && f->ring == 0
-                                                   : true;
+                                                   : !f->filled;
         n += f->kind == kind && counts;
     }
     return n;
@@ -57,7 +60,7 @@ size_t cage_count(const cage *c, int32_t kind)
 
 size_t cage_outlines(const cage *c)
 {
-    size_t n = c->n > 0 ? 1 + c->n_more : 0;
+    size_t n = c->n > 0;
     for (size_t i = 0; i < c->n_features; i++)
         n += c->features[i].of_outline && c->features[i].kind == ICC_FEATURE_REGION;
     return n;
@@ -178,22 +181,19 @@ static void take_outline(cage *c, size_t number, cage *polygon)
     size_t line = polygon->lines != NULL && polygon->n > 0 ? polygon->lines[0] : 0;
     add_outline_ring(c, number, 0, polygon->n, polygon->points, line);
     polygon->points = NULL;
-    size_t n_holes = cage_count(polygon, ICC_FEATURE_HOLE);
-    for (size_t i = 0; i < n_holes; i++) {
+    for (size_t i = 0; i < polygon->n_features; i++) {
         cage_feature *f = &polygon->features[i];
         add_outline_ring(c, number, i + 1, f->n, f->points, f->line);
         f->points = NULL;
     }
 }
 
-/* Takes lines and points. */
-static void take_inside(cage *c, cage *whole)
+cage *cage_add_polygon(cage *c)
 {
-    for (size_t i = cage_count(whole, ICC_FEATURE_HOLE); i < whole->n_features; i++) {
-        c->features = grow(c->features, &c->room_features, c->n_features + 1, sizeof *c->features);
-        c->features[c->n_features++] = whole->features[i];
-        whole->features[i].points = NULL;
-    }
+    c->more = grow(c->more, &c->room_more, c->n_more + 1, sizeof *c->more);
+    cage *added = &c->more[c->n_more++];
+    *added = (cage){.dim = 2};
+    return added;
 }
 
 void cage_join_outlines(cage *c)
@@ -201,7 +201,6 @@ void cage_join_outlines(cage *c)
     cage whole = *c;
     *c = (cage){.dim = whole.dim,
                 .cut = whole.cut,
-                .flipped = whole.flipped,
                 .n_heights = whole.n_heights,
                 .n_curves = whole.n_curves,
                 .curve_edges = whole.curve_edges,
@@ -210,7 +209,6 @@ void cage_join_outlines(cage *c)
     take_outline(c, 1, &whole);
     for (size_t i = 0; i < whole.n_more; i++)
         take_outline(c, i + 2, &whole.more[i]);
-    take_inside(c, &whole);
     cage_free(&whole);
 }
 
@@ -266,6 +264,23 @@ bool cage_sort_features(cage *c, problem *wrong)
     memcpy(c->ties, c->features + c->n_features, c->n_ties * sizeof *c->ties);
     return cage_circles(c) == 0 || c->n_ties == 0 ||
            spoilt(wrong, 0, "points with a radius cannot be combined with ties");
+}
+
+void cage_fill_holes(cage *c)
+{
+    for (size_t i = 0; i < c->n_features; i++) {
+        cage_feature *f = &c->features[i];
+        if (f->kind != ICC_FEATURE_HOLE || has_region(f))
+            continue;
+        double *points = need(f->n + 1, 2 * sizeof *points);
+        memcpy(points, f->points, f->n * 2 * sizeof *points);
+        memcpy(points + 2 * f->n, f->points, 2 * sizeof *points);
+        free(f->points);
+        f->points = points;
+        f->n++;
+        f->kind = ICC_FEATURE_LINE;
+        f->filled = true;
+    }
 }
 
 /* ----------------------------------------------------------------- pairing */

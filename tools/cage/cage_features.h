@@ -22,11 +22,17 @@ bool cage_end_region_ring(cage *c, const cage_feature *like, size_t first, probl
  * their numbers, then ties by theirs. False if two have the same number. */
 bool cage_sort_features(cage *c, problem *wrong);
 
+/* Adds an empty polygon to several. */
+cage *cage_add_polygon(cage *c);
+
 /* Makes the outer ring with its holes, and the further polygons, outlines among the features. So one
- * domain has them all. Lines and points follow; other regions must be added later. */
+ * domain has them all. Call it before other features are added. */
 void cage_join_outlines(cage *c);
 
 /* ---- after reading ---- */
+
+/* Makes the holes of outlines closed lines, so that their insides belong to the domain. */
+void cage_fill_holes(cage *c);
 
 typedef char feature_text[48];
 

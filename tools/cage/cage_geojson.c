@@ -81,9 +81,7 @@ static bool read_polygon(cage *out, const json_item *rings, problem *wrong)
 {
     if (out->n == 0)
         return read_rings(out, rings, wrong);
-    out->more = grow(out->more, &out->room_more, out->n_more + 1, sizeof *out->more);
-    cage *c = &out->more[out->n_more++];
-    *c = (cage){.dim = 2};
+    cage *c = cage_add_polygon(out);
     bool good = read_rings(c, rings, wrong);
     out->n_heights += c->n_heights;
     return good;
@@ -334,8 +332,6 @@ static bool read_outlines(cage *out, const geojson *file, cage_role role, proble
         if (kind == IS_CAGE)
             good = read_geometry(out, json_get(x, "geometry"), wrong);
     }
-    if (good && out->n_more > 0 && n_regions > 0)
-        cage_join_outlines(out);
     size_t n = json_size(file->features);
     if (!good || n_outlines > 0 || n_regions > 0)
         return good;
@@ -361,12 +357,9 @@ static bool read_collection(cage *out, const cage_choice *choice, const geojson 
     return chosen != NULL && read_geometry(out, json_get(chosen, "geometry"), wrong);
 }
 
-static bool read_file(cage *out, const cage_choice *choice, const geojson *file, problem *wrong)
+/* Reads the only geometry of a file. */
+static bool read_only(cage *out, const cage_choice *choice, const json_item *object, problem *wrong)
 {
-    const json_item *object = file->object;
-    if (file->sequence || strcmp(type_of(object), "FeatureCollection") == 0)
-        return read_collection(out, choice, file, wrong) &&
-               read_features(out, choice, file->features, wrong);
     char shown[64];
     if (choice->named != NULL)
         return spoilt(wrong, 0, "there is no list of features to look for %s in",
@@ -374,6 +367,17 @@ static bool read_file(cage *out, const cage_choice *choice, const geojson *file,
     if (strcmp(type_of(object), "Feature") == 0)
         object = json_get(object, "geometry");
     return read_geometry(out, object, wrong);
+}
+
+static bool read_file(cage *out, const cage_choice *choice, const geojson *file, problem *wrong)
+{
+    bool many = file->sequence || strcmp(type_of(file->object), "FeatureCollection") == 0;
+    if (!(many ? read_collection(out, choice, file, wrong)
+               : read_only(out, choice, file->object, wrong)))
+        return false;
+    if (out->n_more > 0)
+        cage_join_outlines(out);
+    return !many || read_features(out, choice, file->features, wrong);
 }
 
 /* Files from before 2016 name their reference system if their coordinates are not degrees. */

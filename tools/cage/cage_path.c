@@ -10,6 +10,7 @@
 
 #include "base/allocate.h"
 #include "base/number.h"
+#include "cage/cage_features.h"
 #include "cage/contours.h"
 #include "cage/svg_arc.h"
 
@@ -324,6 +325,8 @@ bool cage_read_path(cage *out, const char *data, const char *end, size_t line,
     bool good = read_commands(&p) && check_contours(&p);
     if (good)
         cage_take_contours(out, p.n_contours, p.contours);
+    if (good && out->n_more > 0)
+        cage_join_outlines(out);
     free(p.contours);
     return good;
 }

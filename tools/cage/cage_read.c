@@ -110,12 +110,15 @@ bool cage_read(cage *out, const cage_choice *choice, size_t dim, const char *tex
     bool good = read_any(out, choice, dim, text, n, wrong);
     size_t least = out->dim + 1;
     good = good && cage_sort_features(out, wrong);
-    for (size_t i = 0; good && i < out->n_more; i++)
-        good = cage_sort_features(&out->more[i], wrong) &&
-               (out->more[i].n >= least ||
-                spoilt(wrong, 0, "polygon %zu has %zu %s; it has at least %zu", i + 2,
-                       out->more[i].n, out->more[i].n == 1 ? "vertex" : "vertices", least));
-    bool covered = out->n == 0 && cage_count(out, ICC_FEATURE_REGION) > 0;
+    bool covered = false;
+    for (size_t i = 0; good && out->n == 0 && i < out->n_features; i++) {
+        const cage_feature *f = &out->features[i];
+        feature_text name;
+        covered = covered || f->kind == ICC_FEATURE_REGION;
+        if (feature_is_ring(f) && f->n < least)
+            good = spoilt(wrong, 0, "%s has %zu %s; it has at least %zu", feature_name(name, f),
+                          f->n, f->n == 1 ? "vertex" : "vertices", least);
+    }
     if (good && out->cells == NULL && out->n < least && !covered)
         good = spoilt(wrong, 0, "%zu %s; a cage has at least %zu", out->n,
                       out->n == 1 ? "vertex" : "vertices", least);

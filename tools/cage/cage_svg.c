@@ -234,8 +234,6 @@ static bool move_all(cage *c, const transform *t)
     bool good = move(c->n, c->points, t);
     for (size_t i = 0; good && i < c->n_features; i++)
         good = move(c->features[i].n, c->features[i].points, t);
-    for (size_t i = 0; good && i < c->n_more; i++)
-        good = move_all(&c->more[i], t);
     return good;
 }
 

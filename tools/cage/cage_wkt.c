@@ -1,5 +1,5 @@
 /* Cages as well-known text: POLYGON ((x y, x y, ...), (..), ..), where holes follow the outer ring,
- * or a MULTIPOLYGON of one part. SRID=...; may come first. Heights and measures (Z, M, ZM, or
+ * or a MULTIPOLYGON. SRID=...; may come first. Heights and measures (Z, M, ZM, or
  * further numbers) are ignored. */
 #include "cage/cage_readers.h"
 
@@ -135,18 +135,6 @@ static bool read_type(reader *r)
     return true;
 }
 
-/* Counts the parts from the first one on, where several are open. */
-static size_t count_parts(const char *p)
-{
-    size_t n = 1, depth = 1;
-    for (; *p != '\0' && depth > 0; p++) {
-        depth += *p == '(';
-        depth -= *p == ')';
-        n += *p == ',' && depth == 1;
-    }
-    return n;
-}
-
 static bool read_polygon(reader *r, cage *out)
 {
     if (!expect(r, '('))
@@ -158,6 +146,15 @@ static bool read_polygon(reader *r, cage *out)
     return expect(r, ')');
 }
 
+/* Reads a polygon of several, after the first. */
+static bool read_further(reader *r, cage *out)
+{
+    cage *c = cage_add_polygon(out);
+    bool good = read_polygon(r, c);
+    out->n_heights += c->n_heights;
+    return good;
+}
+
 bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
 {
     reader r = {.text = text, .at = text, .wrong = wrong, .line = 1, .counted = text};
@@ -166,13 +163,15 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
     r.at += strspn(r.at, blanks);
     if (!read_type(&r) || (r.several && !expect(&r, '(')))
         return false;
-    const char *first = r.at;
-    size_t n_parts = r.several ? count_parts(first) : 1;
-    if (n_parts > 1)
-        return spoilt(wrong, line_of(text, first),
-                      "the MULTIPOLYGON has %zu parts; make one map per part", n_parts);
-    if (!read_polygon(&r, out) || (r.several && !expect(&r, ')')))
+    if (!read_polygon(&r, out))
         return false;
+    while (r.several && next_is(&r, ','))
+        if (!read_further(&r, out))
+            return false;
+    if (r.several && !expect(&r, ')'))
+        return false;
+    if (out->n_more > 0)
+        cage_join_outlines(out);
     next_is(&r, ';');
     r.at += strspn(r.at, blanks);
     if (r.at != text + n)

@@ -47,41 +47,22 @@ static void ask(check *c)
     c->certified = c->certified && c->map.certified;
 }
 
-/* Makes the chart, or both charts and the map, of each polygon. The library certifies what it
- * can. */
+/* Makes the chart, or both charts and the map. The library certifies what it can. */
 static int certify(check *c)
 {
     bool pair = c->job.args->target != NULL;
     int result = pair ? job_make_map(&c->job) : job_make_chart(&c->job);
     progress_end(&c->job.bar);
-    if (result != DONE)
-        return result;
-    ask(c);
-    for (size_t i = 0; i < c->job.n_parts; i++) {
-        c->parts[i].job = c->job.parts[i];
-        ask(&c->parts[i]);
-    }
-    return DONE;
-}
-
-/* Returns the polygon that speaks for all: the first one that is not certified, if there is one. */
-static const check *first_doubtful(const check *c)
-{
-    for (size_t i = 0; i < c->job.n_parts && c->certified; i++)
-        if (!c->parts[i].certified)
-            return &c->parts[i];
-    return c;
+    if (result == DONE)
+        ask(c);
+    return result;
 }
 
 static void print_found(const check *c)
 {
-    check_print_verdict(first_doubtful(c));
+    check_print_verdict(c);
     check_print_domains(c);
-    for (size_t i = 0; i < c->job.n_parts; i++)
-        check_print_domains(&c->parts[i]);
     check_print_certificates(c);
-    for (size_t i = 0; i < c->job.n_parts; i++)
-        check_print_certificates(&c->parts[i]);
 }
 
 static int verdict_on_method(check *c)
@@ -101,9 +82,9 @@ static int verdict_on_method(check *c)
         return failed(c->job.args->source, 0,
                       "valid, but there is no map or chart to certify; give --target, or for a "
                       "surface --method foliation");
-    return first_doubtful(c)->certified || check_domain_only(c)
+    return c->certified || check_domain_only(c)
                ? DONE
-               : failed(c->job.args->source, 0, "%s", check_reason(text, first_doubtful(c)));
+               : failed(c->job.args->source, 0, "%s", check_reason(text, c));
 }
 
 /* The formats in which --repair writes. */
@@ -128,8 +109,6 @@ static int check_options(const check *c)
                       "target");
     if (a->repair != NULL && c->job.cages[0].n_features > 0)
         return failed(a->source, 0, "--repair is for cages without holes, lines or points inside");
-    if (a->repair != NULL && c->job.n_parts > 0)
-        return failed(a->source, 0, "--repair is for cages of a single polygon");
     return output_fits(a->command, a->boundary,
                        job_dim(&c->job) == 3 ? "text, " SURFACES : "text") == DONE
                ? output_fits(a->command, a->repair, repaired_formats(c))
@@ -141,9 +120,6 @@ static int run(check *c)
     int result = job_read_cages(&c->job);
     if (result == DONE)
         result = check_options(c);
-    c->parts = need(c->job.n_parts, sizeof *c->parts);
-    for (size_t i = 0; i < c->job.n_parts; i++)
-        c->parts[i].job = c->job.parts[i];
     if (result == DONE)
         result = check_find_defects(c);
     if (result != DONE)
@@ -153,8 +129,6 @@ static int run(check *c)
         check_print_verdict(c);
     if (!c->job.args->json)
         check_print_defects(c);
-    for (size_t i = 0; i < c->job.n_parts && !c->job.args->json; i++)
-        check_print_defects(&c->parts[i]);
     if (refused)
         return verdict_on_defects(c);
     if (c->job.args->repair != NULL)
@@ -175,10 +149,7 @@ int run_check(const args *a)
     check c = {0};
     job_start(&c.job, a);
     int result = run(&c);
-    for (size_t i = 0; i < c.job.n_parts; i++)
-        free_defects(&c.parts[i]);
     free_defects(&c);
-    free(c.parts);
     job_end(&c.job);
     return result;
 }

@@ -143,22 +143,18 @@ static double size_of(const job *j)
 static double choose_tolerance(const job *j)
 {
     double size = size_of(j);
-    for (size_t i = 0; i < j->n_parts; i++)
-        size = fmax(size, size_of(&j->parts[i]));
     return j->args->tolerance > 0 ? j->args->tolerance : size / 1000;
 }
 
-/* Refuses --exact if a map has no triangles. */
+/* Refuses --exact if the map has no triangles. */
 static int check_exact(const job *j)
 {
-    for (size_t i = 0; i <= j->n_parts && j->args->exact_lines; i++) {
-        icc_map_info info = {.size = sizeof info};
-        icc_map_get_info(i == 0 ? j->map : j->parts[i - 1].map, &info);
-        if (info.kind != ICC_MAP_MESH)
-            return failed(j->args->source, 0,
-                          "--exact needs the triangles of a mesh map, but this is a curve map; "
-                          "--tolerance makes its lines as accurate as you need");
-    }
+    icc_map_info info = {.size = sizeof info};
+    icc_map_get_info(j->map, &info);
+    if (j->args->exact_lines && info.kind != ICC_MAP_MESH)
+        return failed(j->args->source, 0,
+                      "--exact needs the triangles of a mesh map, but this is a curve map; "
+                      "--tolerance makes its lines as accurate as you need");
     return DONE;
 }
 

@@ -21,26 +21,13 @@ static int read_picture(warp *w)
     return result == DONE ? picture_begin(&w->to, &w->style, &w->from, a, a->operands[1]) : result;
 }
 
-/* Each polygon of the target has its own pixels. */
-static icc_status warp_parts(warp *w, icc_error *err)
-{
-    const job *j = w->job;
-    icc_status status = picture_warp(j->map, &w->from, &w->to, &w->n_failed, &j->env, err);
-    for (size_t i = 0; i < j->n_parts && status == ICC_OK; i++) {
-        size_t n_failed;
-        status = picture_warp(j->parts[i].map, &w->from, &w->to, &n_failed, &j->env, err);
-        w->n_failed += n_failed;
-    }
-    return status;
-}
-
 /* Warps and writes, unless every pixel must have an image and some have none. */
 static int warp_picture(warp *w)
 {
     icc_error err = {.size = sizeof err, .index = -1};
     double began = seconds_now();
     progress_expect(&w->job->bar, 0.9);
-    icc_status ran = warp_parts(w, &err);
+    icc_status ran = picture_warp(w->job->map, &w->from, &w->to, &w->n_failed, &w->job->env, &err);
     double seconds = seconds_now() - began;
     progress_end(&w->job->bar);
     const args *a = w->job->args;
@@ -67,7 +54,7 @@ int warp_apply(job *j)
         result = read_picture(&w);
     if (result == DONE)
         result = job_make_map(j);
-    if (result == DONE && j->n_parts == 0)
+    if (result == DONE)
         coverage_tell(j, w.from.width, w.from.height);
     if (result == DONE)
         result = warp_picture(&w);

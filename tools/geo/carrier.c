@@ -54,7 +54,7 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
     c->reversed = grow(c->reversed, &c->room_reversed, c->n_facets + n_facets, sizeof *c->reversed);
     for (size_t i = 0; i < n_facets; i++)
         c->reversed[c->n_facets + i] = (domain->orientation < 0) != c->flipped[0];
-    for (size_t k = 0; k < domain->n_features && n_facets == domain->n_facets; k++) {
+    for (size_t k = 0; k < domain->n_features; k++) {
         icc_feature_info hole = {.size = sizeof hole};
         icc_domain_get_feature(from, k, &hole);
         bool is_hole = hole.kind == ICC_FEATURE_HOLE;
@@ -114,22 +114,7 @@ static void widen_box(carrier *c, const icc_domain_info *info)
     }
 }
 
-/* The facets of the outer ring come first. */
-static size_t count_outer(const icc_domain *domain, const icc_domain_info *info)
-{
-    size_t n = info->n_facets;
-    for (size_t k = 0; k < info->n_features; k++) {
-        icc_feature_info feature = {.size = sizeof feature};
-        icc_domain_get_feature(domain, k, &feature);
-        n -= feature.kind == ICC_FEATURE_HOLE || feature.kind == ICC_FEATURE_REGION
-                 ? feature.n_vertices
-                 : 0;
-    }
-    return n;
-}
-
-icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, const icc_domain *to,
-                       int32_t rings)
+icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, const icc_domain *to)
 {
     icc_domain_info info[2] = {{.size = sizeof *info}, {.size = sizeof *info}};
     icc_status status = icc_domain_get_info(from, &info[0]);
@@ -137,9 +122,7 @@ icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, c
         status = icc_domain_get_info(to, &info[1]);
     if (status != ICC_OK)
         return status;
-    size_t n_facets = rings == CARRIER_ALL     ? info[0].n_facets
-                      : rings == CARRIER_OUTER ? count_outer(from, &info[0])
-                                               : 0;
+    size_t n_facets = info[0].n_facets;
     c->dim = (size_t)info[0].dim;
     status = add_boundary(c, 0, from, &info[0], n_facets);
     if (status == ICC_OK)
@@ -153,7 +136,7 @@ icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, c
     c->maps = grow(c->maps, &c->room_maps, c->n_maps + 1, sizeof *c->maps);
     carried *m = &c->maps[c->n_maps++];
     *m = (carried){map, from, (uint32_t)c->n_facets, (uint32_t)n_facets, NULL};
-    if (n_facets == info[0].n_facets && c->matched && has_regions(from, &info[0]))
+    if (c->matched && has_regions(from, &info[0]))
         status = keep_rim(c, m);
     else
         c->n_facets += n_facets;

@@ -38,17 +38,13 @@ typedef struct carrier {
     double *in_holes; /* a point in each hole */
 } carrier;
 
-/* The rings of a domain that bound the carried area: all, not its holes, or none because others
- * fill or surround it. */
-enum { CARRIER_ALL = 1, CARRIER_OUTER, CARRIER_NONE };
-
 /* Begins to carry, backwards if `inverse` is set. Free it in any case. Then add the maps, each
  * between two domains in the order in which points go, and set how far outside still counts as on
  * the cage. Below 0 that is 1e-9 of the cage's size, and never less than the rounding of its
  * coordinates. */
 void carrier_start(carrier *out, bool inverse, const icc_env *env);
-icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, const icc_domain *to,
-                       int32_t rings);
+icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from,
+                       const icc_domain *to);
 void carrier_set_snap(carrier *c, double snap);
 void carrier_free(carrier *c);
 

@@ -40,7 +40,7 @@ typedef struct args {
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* number of their coordinates; 0: not given */
     /* The command's use of two cages. */
-    bool needs_target, may_pair, takes_parts, flips_cages;
+    bool needs_target, may_pair, flips_cages;
     bool constrained, unconstrained;
     /* how fits are made; 0 is the library's choice */
     double box[ICC_MAX_DIM], resolution, margin, smoothing, reach, stiffness;
@@ -92,7 +92,7 @@ enum {
     FOR_PLOT = 128,
     FOR_CHARTS = 255, /* all of the above */
     MAY_PAIR = FOR_MAP | FOR_WARP | FOR_MESH | FOR_CHECK | FOR_INFO | FOR_PLOT,
-    TAKES_PARTS = FOR_MAP | FOR_WARP | FOR_CHECK,
+    FILLS_HOLES = FOR_MAP | FOR_WARP | FOR_CHECK,
     FLIPS_CAGES = FOR_MAP | FOR_MESH | FOR_CHECK | FOR_PLOT | 1024, /* FOR_MATCH */
     FOR_WEIGHTS = 256,
     FOR_POSE = 512,

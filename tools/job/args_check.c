@@ -408,7 +408,6 @@ int args_check(args *a, const command *c)
         settle_meshes(a);
     a->needs_target = (c->needs_target || a->match != NULL) && has_cage;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
-    a->takes_parts = (c->bit & TAKES_PARTS) != 0;
     a->flips_cages = (c->bit & FLIPS_CAGES) != 0;
     settle_functions(a);
     int result = settle_match(a, c);

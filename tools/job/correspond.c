@@ -2,6 +2,7 @@
 #include "job/correspond.h"
 
 #include "base/allocate.h"
+#include "cage/cage_degrees.h"
 #include "cage/cage_features.h"
 #include "cage/cage_ties.h"
 
@@ -45,13 +46,22 @@ static void copy_facets(cage *to, const cage *from)
     memcpy(to->facets, from->facets, n * from->dim * sizeof *to->facets);
 }
 
-/* Tells how two cages in the plane differ if one has an outer ring and the other has not. */
-static const char *unlike_text(const cage *source, const cage *target)
+/* Compares the numbers of outlines. Regions alone have none. */
+static int compare_outlines(job *j)
 {
-    return cage_outlines(source) > 1   ? "one outline, but the source has several"
-           : cage_outlines(target) > 1 ? "several outlines, but the source has one"
-           : source->n > 0             ? "no outline, but the source has one"
-                                       : "an outline, but the source has only regions";
+    size_t n[2] = {cage_outlines(&j->cages[0]), cage_outlines(&j->cages[1])};
+    size_t side = n[1] > n[0];
+    side_text where;
+    if (n[0] == n[1])
+        return DONE;
+    if (n[0] == 0 || n[1] == 0)
+        return failed(job_file(j, 2), 0, "%s%s", job_side(where, j, 2),
+                      n[1] == 0 ? "no outline, but the source has one"
+                                : "an outline, but the source has only regions");
+    return failed(job_file(j, (int)side + 1), 0,
+                  "%sthe shape has %zu parts, but the %s %zu; they correspond one by one%s",
+                  job_side(where, j, (int)side + 1), n[side], side == 0 ? "target" : "source",
+                  n[!side], cage_cut_text(&j->cages[side]));
 }
 
 int correspond(job *j)
@@ -70,9 +80,8 @@ int correspond(job *j)
                       j->args->source, source->dim);
     if (source->cells != NULL && source->n == 0)
         return DONE;
-    if ((source->n == 0) != (target->n == 0))
-        return failed(job_file(j, 2), 0, "%s%s", job_side(where, j, 2),
-                      unlike_text(source, target));
+    if (source->dim == 2 && compare_outlines(j) != DONE)
+        return FAILED;
     if (source->n != target->n)
         return failed(j->args->target, 0,
                       "%s%zu vertices, but the %s %s has %zu; they correspond one by one%s",

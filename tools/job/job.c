@@ -2,6 +2,7 @@
 #include "job/job.h"
 
 #include "base/system.h"
+#include "cage/cage_degrees.h"
 #include "cage/cage_features.h"
 #include "cage/cage_ties.h"
 #include "job/fill.h"
@@ -18,7 +19,7 @@ static const double MADE = 0.8;
 void job_start(job *j, const args *a)
 {
     size_t processors = system_processors();
-    *j = (job){.own = *a, .place = {NO_HOLE, NO_HOLE}, .started = seconds_now()};
+    *j = (job){.own = *a, .started = seconds_now()};
     j->args = &j->own;
     j->both = a->source != NULL && a->target != NULL && strcmp(a->source, a->target) == 0;
     progress_start(&j->bar, a->quiet);
@@ -38,11 +39,6 @@ void job_end(job *j)
         icc_domain_free(j->made[side]);
         cage_free(&j->cages[side]);
     }
-    for (size_t i = 0; i < j->n_parts; i++)
-        job_end(&j->parts[i]);
-    free(j->parts);
-    j->parts = NULL;
-    j->n_parts = 0;
 }
 
 const char *job_file(const job *j, int side)
@@ -54,7 +50,7 @@ const char *job_file(const job *j, int side)
 const char *job_side(side_text out, const job *j, int side)
 {
     const char *role = !j->both ? "" : side == 1 ? "source: " : side == 2 ? "target: " : "";
-    snprintf(out, sizeof(side_text), "%s%s", role, j->name);
+    snprintf(out, sizeof(side_text), "%s", role);
     return out;
 }
 
@@ -146,6 +142,11 @@ int job_make_chart(job *j)
     int result = fill_domains(j);
     if (result != DONE)
         return result;
+    if (cage_outlines(&j->cages[0]) > 1)
+        return failed(j->args->source, 0, "the shape has %zu parts; only maps take several%s%s",
+                      cage_outlines(&j->cages[0]),
+                      j->args->may_pair ? ", and --target FILE is missing" : "",
+                      cage_cut_text(&j->cages[0]));
     if (j->cages[0].n_features > 0)
         return failed(j->args->source, 0,
                       "a cage with holes, lines or points inside has maps, but no chart%s",
@@ -186,20 +187,8 @@ int job_make_map(job *j)
     progress_expect(&j->bar, MADE);
     if (j->map == NULL)
         result = j->args->reach > 0 ? fit_cages(j) : make_own_map(j);
-    for (size_t i = 0; i < j->n_parts && result == DONE; i++)
-        result = job_make_map(&j->parts[i]);
     j->seconds_made = seconds_now() - began;
     return result;
-}
-
-/* If holes are filled, only the outlines of polygons that lie in no hole are left. */
-static icc_status add_to_carrier(const job *j, carrier *c)
-{
-    bool inverse = j->args->inverse;
-    int32_t rings = !j->args->fill_holes          ? CARRIER_ALL
-                    : j->place.polygon != NO_HOLE ? CARRIER_NONE
-                                                  : CARRIER_OUTER;
-    return carrier_add(c, j->map, j->domains[inverse], j->domains[!inverse], rings);
 }
 
 int job_start_carrier(job *j, carrier *c)
@@ -208,9 +197,7 @@ int job_start_carrier(job *j, carrier *c)
     carrier_start(c, inverse, &j->env);
     c->flipped[0] = j->cages[inverse].flipped;
     c->flipped[1] = j->cages[!inverse].flipped;
-    icc_status ran = add_to_carrier(j, c);
-    for (size_t i = 0; i < j->n_parts && ran == ICC_OK; i++)
-        ran = add_to_carrier(&j->parts[i], c);
+    icc_status ran = carrier_add(c, j->map, j->domains[inverse], j->domains[!inverse]);
     carrier_set_snap(c, j->args->snap);
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }
@@ -274,8 +261,8 @@ bool report_open(report *r, const job *j)
         json_count(&r->json, "dimension", job_dim(j));
         json_count(&r->json, "vertices", n_vertices(j));
     }
-    if (j->n_parts > 0)
-        json_count(&r->json, "polygons", 1 + j->n_parts);
+    if (cage_outlines(&j->cages[0]) > 1)
+        json_count(&r->json, "polygons", cage_outlines(&j->cages[0]));
     if (j->cages[0].n_features > 0) {
         json_open(&r->json, "inside", '{');
         json_count(&r->json, "holes", cage_count(&j->cages[0], ICC_FEATURE_HOLE));

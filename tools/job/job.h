@@ -2,7 +2,6 @@
  *
  * Words of this folder
  * - job: one call of a command with its cages, domains, chart and map.
- * - part: one polygon of several, or the inside of a hole; it has its own map.
  * - operand: an argument that is no option.
  * - matched: cages that did not correspond and were given common vertices.
  *
@@ -13,8 +12,7 @@
  * - Options: option_table.c lists them, args.c parses, args_check.c says what excludes what,
  *   args_help.c prints.
  * - Cages: job_cages.c reads and makes domains, correspond.h compares, match_cages.h matches,
- *   landmark_file.h. Vertices on sides: t_junctions.h. Several polygons: parts.h, nesting.h. Meshes
- *   inside: fill.h.
+ *   landmark_file.h. Vertices on sides: t_junctions.h. Meshes inside: fill.h.
  * - Maps of what is known only in part: fit_cages.h.
  * - Files: output_name.h, call_files.h (nothing overwritten), point_file.h, cage_file.h,
  *   ties_file.h, triangulation.h (axes: axis_order.h). Requirements: require.h. Normals:
@@ -32,7 +30,6 @@
 #include "cage/cage.h"
 #include "geo/carrier.h"
 #include "job/args.h"
-#include "job/nesting.h"
 
 #include <icc/icc.h>
 
@@ -55,20 +52,15 @@ typedef struct job {
     problem one_sided[2];      /* for each cage: a vertex that does so in this cage only, or "" */
     const icc_domain *domains[2];
     icc_domain *made[2]; /* the domains that are not owned by `match` */
-    bool has_domains;    /* all parts have domains */
-    bool filled;         /* domains are made: see job/fill.h */
+    bool has_domains;
+    bool filled; /* domains are made: see job/fill.h */
     icc_match *match;
     icc_match_info matched; /* size 0: the cages correspond as they are */
     size_t function;        /* the number in args->functions; the first one unless there are
                                several */
     icc_chart *chart;       /* of the source */
     icc_map *map;
-    icc_fit *fit;      /* NULL, or the fit that owns the map */
-    char name[48];     /* the name of one polygon of several, as in "polygon 2: "; else "" */
-    cage_hole place;   /* the hole of another polygon in which it lies */
-    size_t n_parts;    /* the others: polygons, then insides of holes */
-    size_t n_polygons; /* all polygons, including this one */
-    struct job *parts;
+    icc_fit *fit; /* NULL, or the fit that owns the map */
     double started, seconds_read, seconds_made;
     void (*describe)(json *out, const struct job *j); /* adds members to reports; may be NULL */
 } job;
@@ -87,7 +79,7 @@ int job_read_cages(job *j);
 /* The number of coordinates of a point. The cages must have been read. */
 size_t job_dim(const job *j);
 
-/* Reads the cages and makes their domains, including those of all parts. A mask then has the
+/* Reads the cages and makes their domains. A mask then has the
  * vertices and facets of its boundary. */
 int job_make_domains(job *j);
 
@@ -103,7 +95,7 @@ int job_read_plane(job *j, const char *what);
 /* Does all that, and makes the chart of the source. */
 int job_make_chart(job *j);
 
-/* Does all that, and makes the map from source to target of each part. */
+/* Does all that, and makes the map from source to target. */
 int job_make_map(job *j);
 
 /* Makes a carrier from the side of the points that are read to the other side. Needs a map. Free it

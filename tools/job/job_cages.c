@@ -5,12 +5,12 @@
 #include "base/system.h"
 #include "cage/cage_defects.h"
 #include "cage/cage_degrees.h"
+#include "cage/cage_features.h"
 #include "cage/cage_read.h"
 #include "cage/weld.h"
 #include "job/correspond.h"
 #include "job/fit_cages.h"
 #include "job/match_cages.h"
-#include "job/parts.h"
 #include "job/t_junctions.h"
 
 #include <stdio.h>
@@ -84,7 +84,7 @@ static int read_target(job *j, const char *chosen, const char *text, size_t n)
 {
     args *a = &j->own;
     if (a->target == NULL && !a->needs_target &&
-        !(a->may_pair && (chosen == NULL || j->cages[0].n_features + j->cages[0].n_more > 0)))
+        !(a->may_pair && (chosen == NULL || j->cages[0].n_features > 0)))
         return DONE;
     if (a->target == NULL && cage_is_named(CAGE_TARGET, text, n)) {
         a->target = a->source;
@@ -219,10 +219,26 @@ int job_make_domain(job *j, size_t side)
 
 static int match(job *j)
 {
-    int result = match_prepare(j);
+    int result = match_check(j);
     for (size_t side = 0; side < 2 && result == DONE; side++)
         result = job_make_domain(j, side);
     return result == DONE ? match_cages(j) : result;
+}
+
+/* The domains of matched cages are made again. */
+static int fill_holes(job *j)
+{
+    if (j->args->target == NULL)
+        return failed(j->args->source, 0, "--fill-holes is for maps; --target FILE is missing");
+    for (size_t side = 0; side < 2; side++)
+        cage_fill_holes(&j->cages[side]);
+    int result = DONE;
+    for (size_t side = 0; side < 2 && result == DONE && j->match != NULL; side++) {
+        icc_domain_free(j->made[side]);
+        j->made[side] = NULL;
+        result = job_make_domain(j, side);
+    }
+    return result;
 }
 
 /* True if features of two cages may share vertices. Boundaries of meshes have no more vertices than
@@ -257,7 +273,9 @@ int job_read_cages(job *j)
     if (result == DONE && j->args->match != NULL)
         result = match(j);
     if (result == DONE)
-        result = parts_make(j);
+        result = j->args->target != NULL ? correspond(j) : DONE;
+    if (result == DONE && j->args->fill_holes)
+        result = fill_holes(j);
     if (result == DONE && may_touch(j))
         t_junctions_add(j);
     if (result == DONE && j->cages[1].n_sliding > 0)
@@ -291,7 +309,7 @@ static void note_all(const job *j)
     match_note(j);
     for (size_t side = 0; side < 2; side++)
         if (j->cages[side].cut)
-            note("%s: each polygon of the MultiPolygon is mapped by itself%s",
+            note("%s: the polygons of the MultiPolygon are mapped as they are%s",
                  job_file(j, (int)side + 1), cage_cut_text(&j->cages[side]));
     for (size_t side = 0; side < 2; side++)
         if (j->cages[side].n_heights > 0)
@@ -313,10 +331,6 @@ int job_make_domains(job *j)
         result = make_source(j);
     if (result == DONE && j->match == NULL && j->args->target != NULL)
         result = job_make_domain(j, 1);
-    for (size_t i = 0; i < j->n_parts && result == DONE; i++)
-        result = job_make_domains(&j->parts[i]);
-    if (result == DONE && j->n_parts > 0)
-        result = parts_check(j);
     if (result == DONE)
         note_all(j);
     j->has_domains = result == DONE;

@@ -16,17 +16,15 @@ static const double MATCHED = 0.2;
 /* In degrees. A larger turn is rarely meant. */
 static const double LARGE_TURN = 45;
 
-int match_prepare(job *j)
+int match_check(const job *j)
 {
     for (int side = 1; side <= 2; side++) {
-        cage *c = &j->cages[side - 1];
+        const cage *c = &j->cages[side - 1];
         side_text where;
         if (c->dim != 2 && c->dim != 3)
             return failed(job_file(j, side), 0,
                           "%s%zu dimension%s; --match is for the plane and for surfaces",
                           job_side(where, j, side), c->dim, c->dim == 1 ? "" : "s");
-        if (c->n_more > 0)
-            cage_join_outlines(c);
     }
     return DONE;
 }

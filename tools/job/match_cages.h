@@ -4,9 +4,8 @@
 
 #include "job/job.h"
 
-/* Checks that both cages can be matched, and makes one cage of several polygons. DONE, or FAILED
- * with a message on stderr. */
-int match_prepare(job *j);
+/* Checks that both cages can be matched. DONE, or FAILED with a message on stderr. */
+int match_check(const job *j);
 
 /* Replaces cages and domains by ones with common vertices, as --match asks. Both must have domains.
  * j->matched describes the result. DONE, or FAILED with a message on stderr. */

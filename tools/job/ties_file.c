@@ -44,8 +44,6 @@ int ties_check(job *j)
     if (j->args->ties == NULL)
         return DONE;
     int result = job_read_plane(j, "--ties");
-    if (result == DONE && j->n_parts > 0)
-        return failed(j->args->source, 0, "--ties needs a cage of a single polygon");
     if (result == DONE && cage_circles(&j->cages[0]) > 0)
         return failed(j->args->source, 0, "points with a radius cannot be combined with ties");
     return result == DONE && j->cages[0].n_features == 0

@@ -15,15 +15,15 @@
     "because "                                                                                     \
     "the shape is so far from the origin; shift source and target to the origin"
 
-typedef struct part_mesh {
+typedef struct map_mesh {
     icc_map_info info;
     double *from, *to; /* vertices, with y as the cages' files have it */
     uint32_t *triangles;
-} part_mesh;
+} map_mesh;
 
-static part_mesh take_mesh(const icc_map *map, const cage *cages)
+static map_mesh take_mesh(const icc_map *map, const cage *cages)
 {
-    part_mesh m = {.info.size = sizeof m.info};
+    map_mesh m = {.info.size = sizeof m.info};
     icc_map_get_info(map, &m.info);
     m.from = need(m.info.n_vertices, 2 * sizeof *m.from);
     m.to = need(m.info.n_vertices, 2 * sizeof *m.to);
@@ -53,24 +53,16 @@ static void write_crs(FILE *stream, const char *member, const char *crs)
 
 static size_t count_spoilt(const job *j, size_t *n_all)
 {
-    size_t n = 0;
-    *n_all = 0;
-    for (size_t i = 0; i <= j->n_parts; i++) {
-        const icc_map *map = i == 0 ? j->map : j->parts[i - 1].map;
-        icc_map_info info = {.size = sizeof info};
-        icc_map_report made = {.size = sizeof made};
-        icc_map_get_info(map, &info);
-        icc_map_get_report(map, &made);
-        n += made.n_spoilt;
-
-        *n_all += info.n_simplices;
-    }
-    return n;
+    icc_map_info info = {.size = sizeof info};
+    icc_map_report made = {.size = sizeof made};
+    icc_map_get_info(j->map, &info);
+    icc_map_get_report(j->map, &made);
+    *n_all = info.n_simplices;
+    return made.n_spoilt;
 }
 
-/* Writes the columns that "vertices_columns" and "triangles_columns" name, one part after the
- * other. */
-static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh *meshes)
+/* Writes the columns that "vertices_columns" and "triangles_columns" name. */
+static void write_mesh(FILE *stream, const args *a, const map_mesh *m)
 {
     const char *comma = "";
     fputs("{\n\"file_type\": \"triangulation_file\",\n\"format_version\": \"1.1\",\n", stream);
@@ -84,17 +76,14 @@ static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh 
           "\"triangles_columns\": [\"idx_vertex1\", \"idx_vertex2\", \"idx_vertex3\"],\n"
           "\"vertices\": [",
           stream);
-    for (const part_mesh *m = meshes; m < meshes + n; m++)
-        for (size_t i = 0; i < 2 * m->info.n_vertices; i += 2, comma = ",")
-            fprintf(stream, "%s\n[%.17g, %.17g, %.17g, %.17g]", comma, m->from[i], m->from[i + 1],
-                    m->to[i], m->to[i + 1]);
+    for (size_t i = 0; i < 2 * m->info.n_vertices; i += 2, comma = ",")
+        fprintf(stream, "%s\n[%.17g, %.17g, %.17g, %.17g]", comma, m->from[i], m->from[i + 1],
+                m->to[i], m->to[i + 1]);
     fputs("],\n\"triangles\": [", stream);
     comma = "";
-    size_t first = 0;
-    for (const part_mesh *m = meshes; m < meshes + n; first += m->info.n_vertices, m++)
-        for (size_t i = 0; i < 3 * m->info.n_simplices; i += 3, comma = ",")
-            fprintf(stream, "%s\n[%zu, %zu, %zu]", comma, first + m->triangles[i],
-                    first + m->triangles[i + 1], first + m->triangles[i + 2]);
+    for (size_t i = 0; i < 3 * m->info.n_simplices; i += 3, comma = ",")
+        fprintf(stream, "%s\n[%u, %u, %u]", comma, (unsigned)m->triangles[i],
+                (unsigned)m->triangles[i + 1], (unsigned)m->triangles[i + 2]);
     fputs("]\n}\n", stream);
 }
 
@@ -141,10 +130,7 @@ int triangulation_write(const job *j)
     outfile file;
     if (j->args->triangulation == NULL)
         return DONE;
-    bool all = is_mesh(j);
-    for (size_t i = 0; i < j->n_parts; i++)
-        all = all && is_mesh(&j->parts[i]);
-    if (!all)
+    if (!is_mesh(j))
         return failed(j->args->source, 0,
                       "no mesh map was found, so there are no triangles to write; without "
                       "--triangulation a curve map moves the points");
@@ -153,17 +139,11 @@ int triangulation_write(const job *j)
         return failed(j->args->triangulation, 0, SPOILT ", so nothing is written", n_spoilt, n_all);
     if (!outfile_open(&file, j->args->triangulation))
         return FAILED;
-    part_mesh *meshes = need(1 + j->n_parts, sizeof *meshes);
-    for (size_t i = 0; i <= j->n_parts; i++)
-        meshes[i] = i == 0 ? take_mesh(j->map, j->cages)
-                           : take_mesh(j->parts[i - 1].map, j->parts[i - 1].cages);
-    write_meshes(file.stream, j->args, 1 + j->n_parts, meshes);
-    for (size_t i = 0; i <= j->n_parts; i++) {
-        free(meshes[i].from);
-        free(meshes[i].to);
-        free(meshes[i].triangles);
-    }
-    free(meshes);
+    map_mesh mesh = take_mesh(j->map, j->cages);
+    write_mesh(file.stream, j->args, &mesh);
+    free(mesh.from);
+    free(mesh.to);
+    free(mesh.triangles);
     if (!outfile_close(&file))
         return FAILED;
     note_axes(j->args);

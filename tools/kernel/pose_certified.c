@@ -195,7 +195,7 @@ int pose_certified_make(pose *p)
         result = make_map(p, &samples, &posed, on_ring);
     if (result == DONE) {
         carrier_start(&p->carrier, false, &k->job.env);
-        icc_status ran = carrier_add(&p->carrier, p->map, p->sides[0], p->sides[1], CARRIER_ALL);
+        icc_status ran = carrier_add(&p->carrier, p->map, p->sides[0], p->sides[1]);
         carrier_set_snap(&p->carrier, -1);
         result = ran == ICC_OK ? compare(p, &samples) : job_failed_status(&p->kernel.job, ran);
     }

@@ -13,7 +13,7 @@ bool check_domain_only(const check *c)
     return check_is_alone(c) && (c->job.cages[0].cells != NULL || !asks_for_chart);
 }
 
-static int find_defects(check *c)
+int check_find_defects(check *c)
 {
     c->n_defects = 0;
     for (size_t side = 0; side < 2; side++) {
@@ -29,14 +29,4 @@ static int find_defects(check *c)
     }
     progress_end(&c->job.bar);
     return DONE;
-}
-
-int check_find_defects(check *c)
-{
-    int result = find_defects(c);
-    for (size_t i = 0; i < c->job.n_parts && result == DONE; i++) {
-        result = find_defects(&c->parts[i]);
-        c->n_defects += c->parts[i].n_defects;
-    }
-    return result;
 }

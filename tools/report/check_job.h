@@ -18,11 +18,10 @@ typedef struct check {
     chart_facts charts[2];
     icc_map_info map; /* of kind 0 if there is no target */
     icc_map_report made;
-    bool certified;      /* everything is certified */
-    struct check *parts; /* the other polygons of the job; their jobs are copies */
+    bool certified; /* everything is certified */
 } check;
 
-/* Lists the defects of cages in the plane, and those of the other polygons. */
+/* Lists the defects of the outer rings of cages in the plane. */
 int check_find_defects(check *c);
 
 /* True if there is only a mask or a surface, without a target. */

@@ -25,7 +25,7 @@ void check_print_defects(const check *c)
             printf("%s:", job_file(&c->job, (int)side + 1));
             if (line > 0)
                 printf("%zu:", line);
-            printf(" %s%s\n", c->job.name, defect_text(text, &c->defects[side], i, at));
+            printf(" %s\n", defect_text(text, &c->defects[side], i, at));
         }
         if (defects_may_be_more(&c->defects[side], at))
             printf("%s: there may be more defects; the list ends here, after %zu\n",
@@ -94,7 +94,7 @@ void check_print_domains(const check *c)
         if (c->job.domains[side] == NULL ||
             icc_domain_get_info(c->job.domains[side], &info) != ICC_OK)
             continue;
-        printf("%s: %s", job_file(&c->job, (int)side + 1), c->job.name);
+        printf("%s: ", job_file(&c->job, (int)side + 1));
         print_domain(&c->job.cages[side], &info, c->job.n_added);
     }
     if (check_domain_only(c) && c->job.cages[0].cells == NULL)
@@ -102,10 +102,10 @@ void check_print_domains(const check *c)
              "inside, --target a map");
 }
 
-static void print_chart(const char *file, const char *name, const chart_facts *chart)
+static void print_chart(const char *file, const chart_facts *chart)
 {
     const int32_t method = chart->common.method;
-    printf("%s: %s%s chart certified: ", file, name, choice_name(methods, method));
+    printf("%s: %s chart certified: ", file, choice_name(methods, method));
     if (method == ICC_METHOD_FIELD)
         printf("every one of %zu grid vertices has a vector that points uphill on all sides, and "
                "curves enter everywhere along the boundary",
@@ -158,7 +158,7 @@ void check_print_certificates(const check *c)
     for (size_t side = 0; side < 2; side++) {
         const char *file = job_file(&c->job, (int)side + 1);
         if (c->charts[side].common.certified)
-            print_chart(file, c->job.name, &c->charts[side]);
+            print_chart(file, &c->charts[side]);
         else if (c->charts[side].common.method == ICC_METHOD_FIELD)
             printf("%s: field chart not certified: %s\n", file,
                    reason_of_chart(text, &c->charts[side]));
@@ -171,7 +171,7 @@ void check_print_certificates(const check *c)
                reason_of_map(text, &c->map, &c->made));
     if (!c->map.certified)
         return;
-    printf("%smap: %s, certified one-to-one", c->job.name, choice_name(maps, c->map.kind));
+    printf("map: %s, certified one-to-one", choice_name(maps, c->map.kind));
     if (c->map.kind == ICC_MAP_MESH)
         printf(": all %zu %s keep their orientation, exactly, and both boundaries are simple",
                c->map.n_simplices, elements_name(c->map.dim));
@@ -190,15 +190,6 @@ const char *check_reason(char text[240], const check *c)
         snprintf(text, 240, "%s valid, but %s not certified; see the list",
                  pair ? "the cages are" : "the cage is", pair ? "the map is" : "the chart is");
     return text;
-}
-
-/* True if all polygons are certified. */
-static bool is_certified(const check *c)
-{
-    bool all = c->certified;
-    for (size_t i = 0; i < c->job.n_parts; i++)
-        all = all && c->parts[i].certified;
-    return all;
 }
 
 /* Reports what was checked and its certificate, with the reason if there is none. A domain alone
@@ -232,7 +223,7 @@ static void report_certificates(const check *c, json *j)
     else if (c->charts[0].common.method != 0 && !c->charts[0].common.certified)
         json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[0]));
     if (!check_domain_only(c))
-        json_flag(j, "certified", is_certified(c));
+        json_flag(j, "certified", c->certified);
 }
 
 static void report_repair(const check *c, json *j)
