@@ -51,6 +51,13 @@ printf '1.5 5\n6 5.5\n5 6\n15 8.25\n17 6\nnan nan\nnan nan\n' >expected
 sed '1s/.*/1.5 5/' out >rest # the land is the same, but a point of it may be elsewhere by the last digit
 same rest expected
 holds err '2 of 7 points have no image: 2 outside the cage'
+run 0 map -s case.geojson -p points.txt --frame 0.3
+sed -n '2p;4p' out >framed
+printf '6 5.5\n15 8.25\n' >expected
+close_to framed expected 1e-9
+grep -q nan out && complain "the plane around the polygons is not mapped: $(cat out)"
+run 0 check -s case.geojson --frame 0.3
+holds out 'one-to-one: yes, certified'
 run 4 map -s case.geojson -p points.txt --fill-holes --triangulation all.json
 [ "$(grep -c nan out)" -eq 1 ] || complain "the lake is not filled: $(cat out)"
 mv out images

@@ -43,7 +43,7 @@ typedef struct args {
     bool needs_target, may_pair, flips_cages;
     bool constrained, unconstrained;
     /* how fits are made; 0 is the library's choice */
-    double box[ICC_MAX_DIM], resolution, margin, smoothing, reach, stiffness;
+    double box[ICC_MAX_DIM], resolution, margin, frame, smoothing, reach, stiffness;
     size_t n_box; /* numbers of the box; 0: not given */
     bool exact, smooths, slides, frees;
     bool exact_lines; /* of a layer */

@@ -10,6 +10,7 @@
 #include "cage/weld.h"
 #include "job/correspond.h"
 #include "job/fit_cages.h"
+#include "job/frame_cages.h"
 #include "job/match_cages.h"
 #include "job/t_junctions.h"
 
@@ -272,6 +273,8 @@ int job_read_cages(job *j)
         result = check_curves(j);
     if (result == DONE && j->args->match != NULL)
         result = match(j);
+    if (result == DONE && j->args->frame > 0)
+        result = frame_cages(j);
     if (result == DONE)
         result = j->args->target != NULL ? correspond(j) : DONE;
     if (result == DONE && j->args->fill_holes)
