@@ -14,6 +14,7 @@
  * Ways: triangulate.c takes delaunay.h (in the order of insertion_order.h), then constrain.h for
  * the walls, and drops what is outside. planar.h meshes a domain, with the points of grading.h.
  * corners.h cuts and flips edges of a mesh, finder.h finds triangles, laplacian.h has equations.
+ * vertex_fans.h turns around vertices where a boundary touches itself.
  *
  * Invariants: all triangles are counter-clockwise, by exact signs. The same points give the same
  * triangulation on every machine. */

@@ -625,6 +625,47 @@ START_TEST(refusals_name_the_culprit)
 }
 END_TEST
 
+/* A ring in a ring in a ring, and a line inside: what lies inside an odd number of rings is the
+ * part. The line is no bound, so triangles on both sides of it are neighbours. */
+START_TEST(walls_and_bounds)
+{
+    enum { N = 14, N_RINGS = 12, N_WALLS = 13 };
+    const double points[2 * N] = {0, 0, 12, 0, 12, 12, 0, 12, 3, 3, 9, 3,  9,  9,
+                                  3, 9, 5,  5, 7,  5,  7, 7,  5, 7, 2, 11, 10, 11};
+    uint32_t pairs[2 * N_WALLS], triangles[6 * N], twins[6 * N];
+    size_t n = 0, n_lines = 0;
+    iccp_env env;
+    iccp_walls walls, bounds;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    for (uint32_t k = 0; k < N_RINGS; ++k) {
+        pairs[2 * k] = k;
+        pairs[2 * k + 1] = k % 4 < 3 ? k + 1 : k - 3;
+    }
+    pairs[2 * N_RINGS] = N_RINGS;
+    pairs[2 * N_RINGS + 1] = N_RINGS + 1;
+    ck_assert_int_eq(iccp_walls_create(&walls, N, N_WALLS, pairs, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_walls_create(&bounds, N, N_RINGS, pairs, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_triangulate_walls(N, points, &walls, &bounds, triangles, twins, &n, &env),
+                     ICC_OK);
+    /* 8 between the outer two rings, 2 more for each end of the line, and 2 in the last ring */
+    ck_assert_uint_eq(n, 8 + 4 + 2);
+    for (size_t c = 0; c < 3 * n; ++c) {
+        const uint32_t a = triangles[c - c % 3 + (c + 1) % 3];
+        const uint32_t b = triangles[c - c % 3 + (c + 2) % 3];
+        ck_assert_int_eq(twins[c] == ICCP_NO_NEIGHBOUR, iccp_walls_have(&bounds, a, b));
+        n_lines += iccp_walls_find(&walls, a, b) / 2 == N_RINGS;
+    }
+    ck_assert_uint_eq(n_lines, 2);
+    iccp_walls_free(&bounds, &env.memory);
+    /* A ring with a gap. */
+    ck_assert_int_eq(iccp_walls_create(&bounds, N, N_RINGS - 1, pairs, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_triangulate_walls(N, points, &walls, &bounds, triangles, twins, &n, &env),
+                     ICC_ERR_TOPOLOGY);
+    iccp_walls_free(&bounds, &env.memory);
+    iccp_walls_free(&walls, &env.memory);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("triangulate");
@@ -646,6 +687,7 @@ int main(void)
     tcase_add_test(tests, every_allocation_may_fail);
     tcase_add_test(tests, can_be_cancelled);
     tcase_add_test(tests, refusals_name_the_culprit);
+    tcase_add_test(tests, walls_and_bounds);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
 }
