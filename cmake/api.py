@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-HEADERS = ["base", "map", "chart", "stages", "kernel", "fit"]
+HEADERS = ["base", "map", "chart", "stages", "kernel", "fit", "coverage"]
 # Offsets are those of every machine that aligns a type to its own size: with 8 bytes for pointers, and with 4.
 POINTERS = {"lp64": 8, "ilp32": 4}
 SIZES = {"int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "double": 8, "char": 1, "uint8_t": 1,

@@ -58,7 +58,7 @@ awk -F'|' '
         base["usize"] = "size_t"; base["i32"] = "int32_t"; base["u32"] = "uint32_t"; base["u8"] = "uint8_t"
         base["i64"] = "int64_t"; base["u64"] = "uint64_t"
         base["f64"] = "double"; base["c_char"] = "char"; base["c_void"] = "void"
-        print "#include <icc/icc.h>\n#include <icc/stages.h>\n#include <icc/kernel.h>\n#include <icc/fit.h>"
+        print "#include <icc/icc.h>\n#include <icc/stages.h>\n#include <icc/kernel.h>\n#include <icc/fit.h>\n#include <icc/coverage.h>"
     }
     /^struct / { split($0, words, " "); printf "static const %s %s_;\n", words[2], words[2] }
     /^field / && !/Option</ {

@@ -9,7 +9,7 @@ import sys
 import textwrap
 from pathlib import Path
 
-HEADERS = ["base", "map", "chart", "stages", "kernel", "fit"]
+HEADERS = ["base", "map", "chart", "stages", "kernel", "fit", "coverage"]
 SOURCE = Path(__file__).parent / "libicc-sys" / "src" / "lib.rs"
 WIDTH = 110  # max_width in rustfmt.toml
 

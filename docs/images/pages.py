@@ -361,6 +361,25 @@ def certify():
     return few_colours(figure)
 
 
+def two_surveys():
+    """The two surveys of the page, and a grid of the old one carried along."""
+    page = names_of("tutorials/two-surveys.md", 4)
+    figure, axes = panels(3, (9, 2.6))
+    colours = ["#dce8f4", "#f4e8d4", "#e2f0dc", "#f0dce8"]
+    for ax, layer, dots in zip(axes, (page.old, page.new, page.new), (True, True, False)):
+        ax.add_collection(PolyCollection(list(layer.values()), facecolors=colours, edgecolors=INK, linewidths=1))
+        for ring in layer.values() if dots else ():
+            ax.plot(*ring.T, ".", color=RED, markersize=3)
+        ax.set(xlim=(-1.2, 10.2), ylim=(-0.9, 7.9))
+    fine = np.linspace(-1, 10, 800)
+    for at in np.arange(-1, 10.1, 0.5):
+        for line in (np.stack([fine, 0 * fine + at], 1), np.stack([0 * fine + at, fine], 1)):
+            axes[2].plot(*page.m(line).T, color=INK, linewidth=0.4)
+    for ax, title in zip(axes, ("old", "new", "a grid of the old one")):
+        ax.set_title(title, fontsize=9, color=INK)
+    return figure
+
+
 def grid_lines(n):
     """Lines of a grid of n x n cells: finely sampled places, and the numbers of their vertices."""
     fine, k = np.linspace(0, n, 8 * n + 1), np.arange(n + 1)
@@ -371,7 +390,8 @@ def grid_lines(n):
 
 PICTURES = {"control-points": control_points, "puppet": puppet, "moving-mesh": moving_mesh, "certify": certify,
             "fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
-            "matched": matched, "glyphs": glyphs, "stages": stages_of_the_papers, "mesh": mesh}
+            "matched": matched, "glyphs": glyphs, "two-surveys": two_surveys,
+            "stages": stages_of_the_papers, "mesh": mesh}
 
 
 def main():

@@ -6,6 +6,7 @@
  * - icc/map.h: domains, maps, matches and pictures. Most programs need only this one.
  * - icc/chart.h: charts, the coordinates that maps are made from.
  * - icc/stages.h: the steps of the papers one by one.
+ * - icc/coverage.h: two layers of regions that share borders.
  * - icc/fit.h: maps from what is known only in part, such as control points and pins.
  * - icc/kernel.h: kernel coordinates, for handles instead of a boundary.
  * - icc/base.h: status codes, errors, memory, threads and progress. The others include it.
@@ -34,6 +35,7 @@
 
 #include <icc/base.h>
 #include <icc/chart.h>
+#include <icc/coverage.h>
 #include <icc/fit.h>
 #include <icc/kernel.h>
 #include <icc/map.h>

@@ -690,6 +690,47 @@ icc_picture picture(view<Sample> samples, std::int32_t width, std::int32_t heigh
     return result;
 }
 
+/** Two layers of the same regions, with common vertices. */
+class coverage : public handle<icc_coverage, icc_coverage_free> {
+public:
+    using handle::handle;
+
+    /** Pairs two layers: icc_coverage_create(). */
+    coverage(const icc_layer &source, const icc_layer &target,
+             const icc_coverage_options &options = sized<icc_coverage_options>(), const env &e = {})
+        : handle(e, [&](auto out, auto... rest) {
+              return icc_coverage_create(out, &source, &target, &options, rest...);
+          }) {}
+
+    icc_coverage_info info() const { return tell(icc_coverage_get_info); } /**< nodes, borders, what was done */
+    /** The source with common vertices, for the C interface; borrowed. */
+    const icc_domain *get_source() const noexcept { return icc_coverage_source(get()); }
+    /** The target, likewise. */
+    const icc_domain *get_target() const noexcept { return icc_coverage_target(get()); }
+    /** The number of each feature's region. */
+    std::vector<std::int64_t> ids() const
+    {
+        std::vector<std::int64_t> result(info().n_features);
+        call({}, [&](auto...) { return icc_coverage_get_ids(get(), result.data()); });
+        return result;
+    }
+    /** The rings of the source and of the target; they belong to the coverage. */
+    std::pair<view<const icc_feature>, view<const icc_feature>> features() const
+    {
+        const icc_feature *source = nullptr, *target = nullptr;
+        call({}, [&](auto...) { return icc_coverage_get_features(get(), &source, &target); });
+        return {{source, info().n_features}, {target, info().n_features}};
+    }
+    /** What only one layer has. */
+    std::vector<icc_coverage_difference> differences() const
+    {
+        std::vector<icc_coverage_difference> result(info().n_differences, sized<icc_coverage_difference>());
+        for (std::size_t k = 0; k < result.size(); ++k)
+            call({}, [&](auto...) { return icc_coverage_get_difference(get(), k, &result[k]); });
+        return result;
+    }
+};
+
 /** Two domains that do not correspond, and the pairs of points that belong together. */
 class match : public handle<icc_match, icc_match_free> {
 public:

@@ -12,17 +12,19 @@ static ICCP_INLINE bool overlap(size_t dim, const double *a, const double *b)
     return true;
 }
 
-/* Returns true if the segment passes through a box, or within rounding of it. Compares where along
- * the segment it enters and leaves each pair of planes (Ericson, section 5.3.3), with a small
- * margin. */
-static bool passes(size_t dim, const double *box, const double *from, const double *to)
+/* Returns true if the segment passes through a box that is wider by `reach`, or within rounding of
+ * it. Compares where along the segment it enters and leaves each pair of planes (Ericson, section
+ * 5.3.3), with a small margin. */
+static bool passes(size_t dim, const double *box, const double *from, const double *to,
+                   double reach)
 {
     double enter = 0, leave = 1;
     for (size_t k = 0; k < dim; ++k) {
         const double step = to[k] - from[k];
         if (!(fabs(step) > 0))
             continue; /* overlap() has looked already */
-        const double low = (box[k] - from[k]) / step, high = (box[dim + k] - from[k]) / step;
+        const double low = (box[k] - reach - from[k]) / step;
+        const double high = (box[dim + k] + reach - from[k]) / step;
         const double slack = 1e-14 * (1 + fabs(from[k] / step));
         enter = iccp_max(enter, iccp_min(low, high) - slack);
         leave = iccp_min(leave, iccp_max(low, high) + slack);
@@ -33,7 +35,7 @@ static bool passes(size_t dim, const double *box, const double *from, const doub
 static ICCP_INLINE bool wanted(const iccp_facet_query *query, size_t dim, const double *box)
 {
     return overlap(dim, box, query->box) &&
-           (query->from == NULL || passes(dim, box, query->from, query->to));
+           (query->from == NULL || passes(dim, box, query->from, query->to, query->reach));
 }
 
 /* Returns the next node in left-to-right order that is not below `node`, or 0 at the end. */

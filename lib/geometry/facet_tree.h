@@ -79,6 +79,7 @@ typedef struct iccp_facet_query {
     const iccp_facet_tree *tree;
     double box[2 * ICC_MAX_DIM]; /* may shrink at any time */
     const double *from, *to;     /* if not NULL: only boxes near this segment */
+    double reach;                /* how near; 0: up to rounding */
     size_t node;                 /* node to visit after the leaf; 0: none */
     size_t next, end;            /* places of the current leaf that are still to be visited */
 } iccp_facet_query;

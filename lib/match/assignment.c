@@ -8,7 +8,7 @@
 
 typedef struct search {
     const iccp_spot *a, *b;
-    size_t n;
+    size_t n;                   /* spots of b; a may have fewer */
     double *u, *v, *least;      /* duals of both sides; least reduced cost to each spot of b */
     uint32_t *row, *from, *way; /* of each spot of b: its partner; the spot before it on the path */
     unsigned char *is_done;
@@ -79,31 +79,56 @@ static void reorder(const search *s, iccp_spot *b)
         }
 }
 
-icc_status iccp_assign(const iccp_spot *a, iccp_spot *b, size_t n, const iccp_env *env)
+/* Finds the partner of each of n spots of a: s->row. The caller frees the search, even after an
+ * error. */
+static icc_status solve(search *s, size_t n, const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
-    search s = {.a = a, .b = b, .n = n};
-    s.u = iccp_alloc_zero(memory, n, 3 * sizeof *s.u);
-    s.row = iccp_alloc(memory, n, 3 * sizeof *s.row);
-    s.is_done = iccp_alloc(memory, n, 1);
-    icc_status status = s.u != NULL && s.row != NULL && s.is_done != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        s.v = s.u + n;
-        s.least = s.v + n;
-        s.from = s.row + n;
-        s.way = s.from + n;
-        for (size_t j = 0; j < n; ++j)
-            s.row[j] = NONE;
-    }
+    s->u = iccp_alloc_zero(memory, s->n, 3 * sizeof *s->u);
+    s->row = iccp_alloc(memory, s->n, 3 * sizeof *s->row);
+    s->is_done = iccp_alloc(memory, s->n, 1);
+    if (s->u == NULL || s->row == NULL || s->is_done == NULL)
+        return ICC_ERR_MEMORY;
+    s->v = s->u + s->n;
+    s->least = s->v + s->n;
+    s->from = s->row + s->n;
+    s->way = s->from + s->n;
+    for (size_t j = 0; j < s->n; ++j)
+        s->row[j] = NONE;
+    icc_status status = ICC_OK;
     for (uint32_t i = 0; i < n && status == ICC_OK; ++i) {
-        augment(&s, i);
+        augment(s, i);
         status = iccp_progress(env, NULL, (double)(i + 1) / (double)n);
     }
+    return status;
+}
+
+static void release(search *s, const iccp_memory *memory)
+{
+    iccp_free(memory, s->u);
+    iccp_free(memory, s->row);
+    iccp_free(memory, s->is_done);
+}
+
+icc_status iccp_assign(const iccp_spot *a, iccp_spot *b, size_t n, const iccp_env *env)
+{
+    search s = {.a = a, .b = b, .n = n};
+    const icc_status status = solve(&s, n, env);
     if (status == ICC_OK)
         reorder(&s, b);
-    iccp_free(memory, s.u);
-    iccp_free(memory, s.row);
-    iccp_free(memory, s.is_done);
+    release(&s, &env->memory);
+    return status;
+}
+
+icc_status iccp_assign_some(uint32_t *partner, const iccp_spot *a, size_t n, const iccp_spot *b,
+                            size_t m, const iccp_env *env)
+{
+    search s = {.a = a, .b = b, .n = m};
+    const icc_status status = solve(&s, n, env);
+    for (uint32_t j = 0; j < m && status == ICC_OK; ++j)
+        if (s.row[j] != NONE)
+            partner[s.row[j]] = j;
+    release(&s, &env->memory);
     return status;
 }
 

@@ -27,4 +27,10 @@ icc_status iccp_assign(const iccp_spot *a, iccp_spot *b, size_t n, const iccp_en
 bool iccp_can_exchange(size_t *i, size_t *k, const iccp_spot *a, const iccp_spot *b, size_t n,
                        double least, double sure);
 
+/* Pairs each of n spots with one of m >= n others: partner[k] is the place of the other in b. The
+ * sum of squared distances is the least possible. Memory and time are those of iccp_assign() for m
+ * spots. */
+icc_status iccp_assign_some(uint32_t *partner, const iccp_spot *a, size_t n, const iccp_spot *b,
+                            size_t m, const iccp_env *env);
+
 #endif

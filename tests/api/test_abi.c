@@ -676,6 +676,51 @@ AT(icc_fit_info, n_patches, 96);
 AT(icc_fit_info, changed, 104);
 AT(icc_fit_info, n_iterations, 112);
 
+SIZE(icc_layer, 48);
+AT(icc_layer, size, 0);
+AT(icc_layer, n_rings, 8);
+AT(icc_layer, first, 16);
+AT(icc_layer, vertices, 24);
+AT(icc_layer, ids, 32);
+AT(icc_layer, holes, 40);
+
+SIZE(icc_coverage_options, 48);
+AT(icc_coverage_options, size, 0);
+AT(icc_coverage_options, weld, 8);
+AT(icc_coverage_options, between, 24);
+AT(icc_coverage_options, unmatched, 28);
+AT(icc_coverage_options, n_left_out, 32);
+AT(icc_coverage_options, left_out, 40);
+
+SIZE(icc_coverage_info, 248);
+AT(icc_coverage_info, size, 0);
+AT(icc_coverage_info, n_regions, 8);
+AT(icc_coverage_info, n_features, 16);
+AT(icc_coverage_info, n_vertices, 24);
+AT(icc_coverage_info, n_nodes, 32);
+AT(icc_coverage_info, n_sides, 40);
+AT(icc_coverage_info, n_islands, 48);
+AT(icc_coverage_info, n_settled, 56);
+AT(icc_coverage_info, n_joined, 64);
+AT(icc_coverage_info, n_differences, 72);
+AT(icc_coverage_info, n_left_out, 80);
+AT(icc_coverage_info, n_given, 88);
+AT(icc_coverage_info, n_welded, 104);
+AT(icc_coverage_info, n_inserted, 120);
+AT(icc_coverage_info, n_chains, 136);
+AT(icc_coverage_info, chain, 152);
+AT(icc_coverage_info, most_moved, 184);
+AT(icc_coverage_info, least_apart, 200);
+AT(icc_coverage_info, least_apart_at, 216);
+
+SIZE(icc_coverage_difference, 56);
+AT(icc_coverage_difference, size, 0);
+AT(icc_coverage_difference, kind, 8);
+AT(icc_coverage_difference, side, 12);
+AT(icc_coverage_difference, n_ids, 16);
+AT(icc_coverage_difference, ids, 24);
+AT(icc_coverage_difference, place, 40);
+
 #endif
 
 /* The library that is linked and the headers belong together. */

@@ -16,6 +16,7 @@ typedef struct args {
     const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
     const char *triangulation, *source_crs, *target_crs, *ties;
     const char *match, *landmarks, *target_output;
+    const char *by; /* the property with the names of regions; NULL: cages are no layers */
     const char *json_file, *handles, *pose, *binding, *picture;
     const char *outline, *moves, *nearest, *drawing;
     char **operands; /* moved to the front of argv */
@@ -47,6 +48,7 @@ typedef struct args {
     size_t n_box; /* numbers of the box; 0: not given */
     bool exact, smooths, slides, frees;
     bool exact_lines; /* of a layer */
+    bool leaves_out;  /* regions at borders that one layer lacks */
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
     double spacing, sigma;

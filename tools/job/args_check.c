@@ -278,6 +278,13 @@ static int check_match(const args *a, const command *c)
                                                     : NULL;
     if (a->match == NULL && matched_only != NULL)
         return misused(c->name, "--%s goes with --match", matched_only);
+    if (a->by == NULL && a->leaves_out)
+        return misused(c->name, "--leave-out goes with --by");
+    if (a->by != NULL && (a->match != NULL || a->mesh != NULL || a->repair != NULL))
+        return misused(c->name, "--%s does not go with --by",
+                       a->match != NULL  ? "match"
+                       : a->mesh != NULL ? "mesh"
+                                         : "repair");
     bool turns = a->y_down_side == SIDE_SOURCE || a->y_down_side == SIDE_TARGET;
     if (turns && (a->mesh != NULL || a->target_mesh != NULL))
         return misused(c->name, "--y-down=%s does not go with --mesh",
@@ -406,7 +413,7 @@ int args_check(args *a, const command *c)
     bool has_cage = !a->fill && a->moves == NULL && a->nearest == NULL;
     if (has_cage)
         settle_meshes(a);
-    a->needs_target = (c->needs_target || a->match != NULL) && has_cage;
+    a->needs_target = (c->needs_target || a->match != NULL || a->by != NULL) && has_cage;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
     a->flips_cages = (c->bit & FLIPS_CAGES) != 0;
     settle_functions(a);

@@ -11,6 +11,7 @@
 #include "job/correspond.h"
 #include "job/fit_cages.h"
 #include "job/frame_cages.h"
+#include "job/layer_cages.h"
 #include "job/match_cages.h"
 #include "job/t_junctions.h"
 
@@ -255,6 +256,11 @@ int job_read_cages(job *j)
 {
     if (job_dim(j) > 0)
         return DONE;
+    if (j->args->by != NULL) {
+        int read = layer_cages(j);
+        j->seconds_read = seconds_now() - j->started;
+        return read;
+    }
     source_file own = {0};
     const source_file *s = j->source != NULL ? j->source : &own;
     if (j->source == NULL)

@@ -351,6 +351,19 @@ const option options[] = {
      .value = "auto|arc|FILE",
      .help = "pair two outlines that do not correspond: auto (by shape), arc (by arc length), or "
              "by shape with the landmarks in FILE"},
+    {.name = "by",
+     .kind = OPTION_TEXT,
+     .commands = MAY_PAIR,
+     .offset = AT(by),
+     .value = "PROPERTY",
+     .help =
+         "source and target are layers of polygons that share borders, in GeoJSON: pair regions "
+         "with the same value of this property, and give both layers common vertices"},
+    {.name = "leave-out",
+     .kind = OPTION_FLAG,
+     .commands = MAY_PAIR,
+     .offset = AT(leaves_out),
+     .help = "with --by: leave out the regions at borders that only one layer has"},
     {.name = "landmarks",
      .kind = OPTION_TEXT,
      .commands = TAKES_TARGET,
@@ -433,7 +446,8 @@ const option options[] = {
      .present = AT(weld),
      .value = "[=LENGTH]",
      .help =
-         "in space: join vertices at the same place, or at most LENGTH apart; STL files need it"},
+         "in space: join vertices at the same place, or at most LENGTH apart; STL files need it. "
+         "With --by: join vertices, and vertices and sides, at most LENGTH apart"},
     {.name = "flatten",
      .group = OPTIONS_RARE,
      .kind = OPTION_LENGTH,

@@ -18,6 +18,7 @@ from . import kernel, stages
 from ._abi import lib as _lib
 from ._chart import Chart
 from ._core import Progress
+from ._coverage import Coverage
 from ._domain import BOUNDARY, INSIDE, OUTSIDE, Domain, as_domain, boundary_defects, repair_mask
 from ._errors import (
     AmbiguousError,
@@ -52,6 +53,7 @@ __all__ = [
     "Cancelled",
     "CertificateError",
     "Chart",
+    "Coverage",
     "Domain",
     "Error",
     "Fit",

@@ -33,6 +33,10 @@ chart_timings grid:f64 tree:f64 function:f64 mesh:f64 centre:f64 solve:f64 order
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
 match_options turning:i32 between:i32 least_sure:f64 drop:f64 tolerance:f64 keep_source:i32
 match_info dim:i32 mirrored:i32 n_vertices:size n_landmarks:size n_joined:size cost:f64 second:f64 sure:f64 turn:f64 least_slope:f64 most_slope:f64 energy:f64 off:f64 least_angle:f64 n_overlay:size
+layer n_rings:size first:ptr vertices:ptr ids:ptr holes:ptr
+coverage_options weld:f64[2] between:i32 unmatched:i32 n_left_out:size left_out:ptr
+coverage_info n_regions:size n_features:size n_vertices:size n_nodes:size n_sides:size n_islands:size n_settled:size n_joined:size n_differences:size n_left_out:size n_given:size[2] n_welded:size[2] n_inserted:size[2] n_chains:size[2] chain:f64[4] most_moved:f64[2] least_apart:f64[2] least_apart_at:f64[4]
+coverage_difference kind:i32 side:i32 n_ids:i32 ids:i64[2] place:f64[2]
 tie vertex:u32[2] n_source:size source:ptr n_target:size target:ptr
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr
 map_info dim:i32 kind:i32 certified:i32 reason:i32 reason_side:i32 class_kept:i32 n_vertices:size n_simplices:size energy:f64 n_holes:size n_lines:size n_points:size n_ties:size detour:f64
@@ -113,6 +117,14 @@ match_apply match* size f64* f64* f64* env*
 match_apply_inverse match* size f64* f64* f64* env*
 match_save match* size void* size*
 match_load match** size void* env* error*
+coverage_create coverage** layer* layer* coverage_options* env* error*
+void:coverage_free coverage*
+domain*:coverage_source coverage*
+domain*:coverage_target coverage*
+coverage_get_info coverage* coverage_info*
+coverage_get_features coverage* feature** feature**
+coverage_get_ids coverage* i64*
+coverage_get_difference coverage* size coverage_difference*
 map_create map** domain* domain* map_options* env* error*
 map_create_polygons map** size f64* f64* env* error*
 map_create_from_charts map** chart* chart* map_options* env* error*

@@ -46,4 +46,11 @@ icc_status iccp_elastic_between(iccp_pairing_knots *knots, iccp_elastic_report *
                                 const iccp_outline *source, const iccp_outline *target, size_t n,
                                 const double *landmarks, const iccp_env *env);
 
+/* Searches between two pairs of shares that are held, `from` and `width` further on. Both outlines
+ * get n samples there, 4 <= n <= N. Appends at most 2 n knots. The first is at `from`, and none is
+ * at the other end. */
+icc_status iccp_elastic_open(iccp_pairing_knots *knots, const iccp_outline *source,
+                             const iccp_outline *target, const double *from, const double *width,
+                             size_t n, const iccp_memory *memory);
+
 #endif

@@ -36,17 +36,18 @@ static void release(between *w, const iccp_memory *memory)
     iccp_free(memory, w);
 }
 
-static between *prepare(const iccp_memory *memory)
+/* Makes room for pieces of at most n samples. */
+static between *prepare(size_t n, const iccp_memory *memory)
 {
     between *const w = iccp_alloc_zero(memory, 1, sizeof *w);
     if (w == NULL)
         return NULL;
-    w->a = iccp_alloc(memory, N + 1, sizeof *w->a);
-    w->b = iccp_alloc(memory, N + 1, sizeof *w->b);
-    w->cost = iccp_alloc(memory, (size_t)(N + 1) * (N + 1), sizeof *w->cost);
-    w->path.points = iccp_alloc(memory, 2 * (2 * N + 1), sizeof *w->path.points);
+    w->a = iccp_alloc(memory, n + 1, sizeof *w->a);
+    w->b = iccp_alloc(memory, n + 1, sizeof *w->b);
+    w->cost = iccp_alloc(memory, (n + 1) * (n + 1), sizeof *w->cost);
+    w->path.points = iccp_alloc(memory, 2 * (2 * n + 1), sizeof *w->path.points);
     if (w->a == NULL || w->b == NULL || w->cost == NULL || w->path.points == NULL ||
-        iccp_lattice_create(&w->lattice, N, memory) != ICC_OK) {
+        iccp_lattice_create(&w->lattice, (int32_t)n, memory) != ICC_OK) {
         release(w, memory);
         return NULL;
     }
@@ -68,11 +69,11 @@ static piece piece_of(const double *landmarks, size_t n, size_t k)
 }
 
 static void describe(between *w, iccp_descriptor *out, const iccp_outline *outline, const piece *p,
-                     int side)
+                     int side, double step)
 {
     for (int32_t k = 0; k <= p->n; ++k)
         w->share[k] = p->from[side] + p->width[side] * k / p->n;
-    iccp_descriptors(out, outline, (size_t)p->n + 1, w->share, 0.5 / N);
+    iccp_descriptors(out, outline, (size_t)p->n + 1, w->share, step);
 }
 
 /* Finds the best path through one piece: its knots, and its part of the rotation. */
@@ -105,7 +106,7 @@ icc_status iccp_elastic_between(iccp_pairing_knots *knots, iccp_elastic_report *
                                 const iccp_outline *source, const iccp_outline *target, size_t n,
                                 const double *landmarks, const iccp_env *env)
 {
-    between *const w = prepare(&env->memory);
+    between *const w = prepare(N, &env->memory);
     if (w == NULL)
         return ICC_ERR_MEMORY;
     icc_status status = ICC_OK;
@@ -116,8 +117,8 @@ icc_status iccp_elastic_between(iccp_pairing_knots *knots, iccp_elastic_report *
         knots->n = 0;
         for (size_t k = 0; k < n && status == ICC_OK; ++k) {
             const piece p = piece_of(landmarks, n, k);
-            describe(w, w->a, source, &p, 0);
-            describe(w, w->b, target, &p, 1);
+            describe(w, w->a, source, &p, 0, 0.5 / N);
+            describe(w, w->b, target, &p, 1, 0.5 / N);
             match_piece(w, &p, rotation, pass > 0 ? iccp_tangents : 0, knots, sum);
             report->cost += w->path.cost * (p.width[0] + p.width[1]) / 2;
             status = iccp_progress(env, NULL, (pass + (double)(k + 1) / (double)n) / N_PASSES);
@@ -129,4 +130,27 @@ icc_status iccp_elastic_between(iccp_pairing_knots *knots, iccp_elastic_report *
     report->turn = -iccp_atan2_turns(rotation[1], rotation[0]);
     release(w, &env->memory);
     return status;
+}
+
+icc_status iccp_elastic_open(iccp_pairing_knots *knots, const iccp_outline *source,
+                             const iccp_outline *target, const double *from, const double *width,
+                             size_t n, const iccp_memory *memory)
+{
+    between *const w = prepare(n, memory);
+    if (w == NULL)
+        return ICC_ERR_MEMORY;
+    const piece p = {{from[0], from[1]}, {width[0], width[1]}, (int32_t)n};
+    const size_t first = knots->n;
+    double rotation[2] = {1, 0};
+    describe(w, w->a, source, &p, 0, width[0] / (2 * (double)n));
+    describe(w, w->b, target, &p, 1, width[1] / (2 * (double)n));
+    for (int pass = 0; pass < N_PASSES; ++pass) {
+        double sum[2] = {0, 0};
+        knots->n = first;
+        match_piece(w, &p, rotation, pass > 0 ? iccp_tangents : 0, knots, sum);
+        iccp_unit(sum);
+        memcpy(rotation, sum, sizeof sum);
+    }
+    release(w, memory);
+    return ICC_OK;
 }

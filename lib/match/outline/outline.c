@@ -9,11 +9,12 @@
 #include <math.h>
 #include <string.h>
 
-static icc_status reserve(iccp_outline *outline, const icc_domain *domain, size_t n,
+/* Makes room for n vertices within a bounding box. */
+static icc_status reserve(iccp_outline *outline, size_t n, const double *lower, const double *upper,
                           const iccp_memory *memory)
 {
-    const double d[2] = {domain->upper[0] - domain->lower[0], domain->upper[1] - domain->lower[1]};
-    *outline = (iccp_outline){.domain = domain, .n = n, .diameter = iccp_hypot(d[0], d[1])};
+    *outline =
+        (iccp_outline){.n = n, .diameter = iccp_hypot(upper[0] - lower[0], upper[1] - lower[1])};
     outline->vertex = iccp_alloc(memory, n, sizeof *outline->vertex);
     outline->points = iccp_alloc(memory, 2 * (n + 1), sizeof *outline->points);
     outline->share = iccp_alloc(memory, n + 1, sizeof *outline->share);
@@ -50,7 +51,8 @@ icc_status iccp_outline_create(iccp_outline *outline, const icc_domain *domain,
 {
     const size_t n = domain->features != NULL ? domain->features->n_outer : domain->n_vertices;
     iccp_polygon ring = {0};
-    icc_status status = reserve(outline, domain, n, memory);
+    icc_status status = reserve(outline, n, domain->lower, domain->upper, memory);
+    outline->domain = domain;
     if (status == ICC_OK)
         status = iccp_polygon_create(&ring, n, domain->vertices, domain->facets, memory, err);
     if (status == ICC_OK) {
@@ -85,7 +87,8 @@ icc_status iccp_outline_create_feature(iccp_outline *outline, const icc_domain *
         f->kind == ICC_FEATURE_LINE && node[f->first + f->n - 1] == node[f->first];
     const bool is_line = f->kind == ICC_FEATURE_LINE && !is_closed;
     const uint32_t last = f->n - 1, n = is_line ? 2 * last : is_closed ? last : f->n;
-    const icc_status status = reserve(outline, domain, n, memory);
+    const icc_status status = reserve(outline, n, domain->lower, domain->upper, memory);
+    outline->domain = domain;
     if (status != ICC_OK)
         return status;
     outline->end = is_line ? last : 0;
@@ -98,6 +101,22 @@ icc_status iccp_outline_create_feature(iccp_outline *outline, const icc_domain *
         outline->vertex[k] = f->first + (outline->is_back ? back : on);
     }
     iccp_outline_place(outline, domain->vertices);
+    return ICC_OK;
+}
+
+icc_status iccp_outline_create_points(iccp_outline *outline, size_t n, const double *points,
+                                      bool is_ring, const iccp_memory *memory)
+{
+    const size_t last = n - 1, n_walked = is_ring ? n : 2 * last;
+    double lower[2], upper[2];
+    iccp_frame_bounds(2, n, points, lower, upper);
+    const icc_status status = reserve(outline, n_walked, lower, upper, memory);
+    if (status != ICC_OK)
+        return status;
+    outline->end = is_ring ? 0 : last;
+    for (size_t k = 0; k < n_walked; ++k)
+        outline->vertex[k] = (uint32_t)(!is_ring && k > last ? n_walked - k : k);
+    iccp_outline_place(outline, points);
     return ICC_OK;
 }
 

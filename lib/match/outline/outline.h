@@ -37,14 +37,15 @@
 static const double iccp_one_place = 1e-9;
 
 typedef struct iccp_outline {
-    const icc_domain *domain; /* borrowed */
+    const icc_domain *domain; /* borrowed; NULL: there is none */
     size_t n;
-    size_t end;       /* for a line: the place of its other end among the n vertices; else 0 */
-    bool is_back;     /* the domain lists it in the other direction */
-    uint32_t *vertex; /* n: the domain's numbers of the vertices, from the first one on */
-    double *points;   /* 2 (n + 1), local; the first point is repeated at the end */
-    double *share;    /* n + 1: the length up to each vertex as a share of the whole: 0 .. 1 */
-    double diameter;  /* diagonal of the bounding box */
+    size_t end;   /* for a line: the place of its other end among the n vertices; else 0 */
+    bool is_back; /* the domain lists it in the other direction */
+    uint32_t
+        *vertex; /* n: the domain's numbers of the vertices, or of the points, from the first on */
+    double *points;  /* 2 (n + 1), local; the first point is repeated at the end */
+    double *share;   /* n + 1: the length up to each vertex as a share of the whole: 0 .. 1 */
+    double diameter; /* diagonal of the bounding box */
     double perimeter;
 } iccp_outline;
 
@@ -55,6 +56,11 @@ icc_status iccp_outline_create(iccp_outline *outline, const icc_domain *domain,
 /* Makes the outline of a hole or a line. A line is walked from its last vertex if `is_back`. */
 icc_status iccp_outline_create_feature(iccp_outline *outline, const icc_domain *domain,
                                        size_t feature, bool is_back, const iccp_memory *memory);
+
+/* Makes an outline of n points that belong to no domain: a ring, or a line from the first to the
+ * last. */
+icc_status iccp_outline_create_points(iccp_outline *outline, size_t n, const double *points,
+                                      bool is_ring, const iccp_memory *memory);
 
 /* Moves the outline to these vertices of the domain, and measures it. */
 void iccp_outline_place(iccp_outline *outline, const double *vertices);

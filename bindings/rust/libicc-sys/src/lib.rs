@@ -2775,7 +2775,12 @@ extern "C" {
     /// - `points` (out): room for n * dim coordinates
     ///
     /// Returns `ICC_OK`; `ICC_ERR_ARGUMENT` if a number is not that of a vertex
-    pub fn icc_grid_get_points(grid: *const icc_grid, n: usize, vertices: *const u32, points: *mut f64) -> icc_status;
+    pub fn icc_grid_get_points(
+        grid: *const icc_grid,
+        n: usize,
+        vertices: *const u32,
+        points: *mut f64,
+    ) -> icc_status;
 
     /// One byte per vertex, 1 inside and 0 outside; borrowed.
     pub fn icc_grid_inside(grid: *const icc_grid) -> *const u8;
@@ -3165,7 +3170,11 @@ extern "C" {
     /// - `vertices` (out): room for n_vertices * dim coordinates
     ///
     /// Returns `ICC_OK` or `ICC_ERR_ARGUMENT`
-    pub fn icc_curves_get_vertices(curves: *const icc_curves, first: *mut usize, vertices: *mut f64) -> icc_status;
+    pub fn icc_curves_get_vertices(
+        curves: *const icc_curves,
+        first: *mut usize,
+        vertices: *mut f64,
+    ) -> icc_status;
 
     /// Copies how the curves end. Every array may be NULL. The others have room for one entry a curve.
     ///
@@ -4284,4 +4293,224 @@ extern "C" {
     ///
     /// Returns `ICC_OK` or `ICC_ERR_ARGUMENT`
     pub fn icc_fit_get_residuals(fit: *const icc_fit, residuals: *mut f64, left_out: *mut f64) -> icc_status;
+}
+
+// icc/coverage.h
+
+opaque!(
+    /// Two layers of the same regions, with common vertices.
+    icc_coverage
+);
+
+// What `icc_coverage_create()` does with borders that only one of the two layers has.
+/// it fails, and names one of them
+pub const ICC_UNMATCHED_REFUSE: i32 = 1;
+/// it goes on without the regions at these borders, see `icc_coverage_create()`
+pub const ICC_UNMATCHED_LEAVE_OUT: i32 = 2;
+
+/// A layer of regions. It belongs to the caller and is only read. A region is all rings with its number: an
+/// outer ring for each of its pieces, and its holes. Rings may run either way.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_layer {
+    /// set by the caller: `sizeof(icc_layer)`
+    pub size: usize,
+    /// at least 1
+    pub n_rings: usize,
+    /// n_rings + 1 numbers, from 0 on: the vertex that each ring begins with, and the number of all vertices.
+    /// A ring has at least 3
+    pub first: *const usize,
+    /// 2 coordinates for each vertex
+    pub vertices: *const f64,
+    /// n_rings: the number of the region, any number
+    pub ids: *const i64,
+    /// n_rings: 1 if the ring is a hole of its region, else 0. NULL: no ring is a hole
+    pub holes: *const u8,
+}
+sized!(icc_layer);
+
+/// Options of `icc_coverage_create()`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_coverage_options {
+    /// set by the caller: `sizeof(icc_coverage_options)`
+    pub size: usize,
+    /// the weld length of the source and of the target, each in its own coordinates. Vertices within this
+    /// length become one, and a vertex within this length of a side becomes part of it. 0: only places that
+    /// are exactly equal, and vertices that lie exactly on a side
+    pub weld: [f64; 2],
+    /// how vertices along a border are paired: `ICC_BETWEEN_*`; 0: elastic
+    pub between: i32,
+    /// `ICC_UNMATCHED_*`; 0: refuse
+    pub unmatched: i32,
+    /// number of regions that are left out of both layers from the start
+    pub n_left_out: usize,
+    /// n_left_out numbers of regions; they need not exist
+    pub left_out: *const i64,
+}
+sized!(icc_coverage_options);
+
+/// What `icc_coverage_get_info()` reports. Of two numbers, the first belongs to the source and the second to
+/// the target.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_coverage_info {
+    /// set by the caller: `sizeof(icc_coverage_info)`
+    pub size: usize,
+    /// regions of the coverage
+    pub n_regions: usize,
+    /// its rings: `icc_coverage_get_features()`
+    pub n_features: usize,
+    /// its different common vertices
+    pub n_vertices: usize,
+    /// places where more than two borders begin
+    pub n_nodes: usize,
+    /// borders from node to node
+    pub n_sides: usize,
+    /// closed borders without a node
+    pub n_islands: usize,
+    /// nodes, borders and islands of which several have the same regions around them. They were paired by
+    /// their places
+    pub n_settled: usize,
+    /// common vertices that are vertices of both layers
+    pub n_joined: usize,
+    /// what only one layer has: `icc_coverage_get_difference()`
+    pub n_differences: usize,
+    /// regions that one layer has and the coverage has not, or only in part
+    pub n_left_out: usize,
+    /// vertices given
+    pub n_given: [usize; 2],
+    /// vertices that moved to another one's place
+    pub n_welded: [usize; 2],
+    /// vertices put into sides that pass close by
+    pub n_inserted: [usize; 2],
+    /// vertices that stayed apart although each lies within the weld length of one that went elsewhere:
+    /// together they would form a chain longer than the weld length. If there are any, the weld length is too
+    /// long for this layer, or too short
+    pub n_chains: [usize; 2],
+    /// x and y of one of these vertices of the source, then of the target, if there are any
+    pub chain: [f64; 4],
+    /// how far a vertex moved at most; no more than the weld length
+    pub most_moved: [f64; 2],
+    /// the least distance left between a vertex and another vertex or a side that does not end there;
+    /// HUGE_VAL if there is none
+    pub least_apart: [f64; 2],
+    /// x and y of the vertex there: source, target
+    pub least_apart_at: [f64; 4],
+}
+sized!(icc_coverage_info);
+
+// Kinds of differences: `icc_coverage_difference.kind`.
+/// a region that one layer does not have
+pub const ICC_DIFFERENCE_REGION: i32 = 1;
+/// a border between nodes
+pub const ICC_DIFFERENCE_BORDER: i32 = 2;
+/// a closed border without a node: an island, a lake
+pub const ICC_DIFFERENCE_ISLAND: i32 = 3;
+
+/// Something that only one of the two layers has.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_coverage_difference {
+    /// set by the caller: `sizeof(icc_coverage_difference)`
+    pub size: usize,
+    /// `ICC_DIFFERENCE_*`
+    pub kind: i32,
+    /// 1: only the source has it; 2: only the target
+    pub side: i32,
+    /// 1 or 2: the number of `ids`
+    pub n_ids: i32,
+    /// the region, or the regions on both sides of the border
+    pub ids: [i64; 2],
+    /// a vertex of it, in that layer's coordinates
+    pub place: [f64; 2],
+}
+sized!(icc_coverage_difference);
+
+extern "C" {
+    /// Gives two layers of the same regions common vertices.
+    ///
+    /// 1. *Each layer is cleaned.* Vertices within the weld length of each other become one: a vertex moves
+    /// to one that was given, and by no more than the weld length. A vertex within the weld length of a side
+    /// is put into it. Sides that run back over themselves vanish, and so do sides between two pieces of one
+    /// region. With a weld length of 0 all this happens only where it is exact. 2. *Nodes are found.* A node
+    /// is a place where more than two sides meet. Its regions, in their order around it, tell which node of
+    /// the other layer it is. If several nodes have the same regions around them, the pairs are those with
+    /// the least sum of squared distances, after the affine map that fits all other nodes best. 3. *Borders
+    /// are paired* by their two nodes, and by the regions left and right. Closed borders without a node, such
+    /// as those of islands, are paired by their regions and their places. 4. *Along each border* the vertices
+    /// are paired by shape, with both ends held, as `icc_match_create()` pairs lines. Each vertex of either
+    /// layer becomes a common vertex. It lies on the border's segments in the other layer, up to rounding.
+    ///
+    /// With `ICC_UNMATCHED_LEAVE_OUT`, differences do not matter:
+    ///
+    /// - A region that only one layer has is left out.
+    /// - An island or a lake that only one layer has is taken away. Its place becomes what is around it.
+    /// - On both sides of another border that only one layer has, the piece of the region is left out. The
+    ///   partner of such a piece in the other layer is left out as well. Where a piece is left out, nothing
+    ///   is covered.
+    ///
+    /// The result has one feature for each ring, see `icc_coverage_get_features()`. The two domains,
+    /// `icc_coverage_source()` and `icc_coverage_target()`, consist of these features. Give them to
+    /// `icc_map_create()`.
+    ///
+    /// - `out` (out): the coverage; owned by the caller, see `icc_coverage_free()`
+    /// - `source`: the first layer
+    /// - `target`: the second layer; it may have other coordinates
+    /// - `options`: may be NULL
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL; `side` tells which layer is at fault. `index` is a ring (`ICC_ITEM_LINE`), or
+    ///   -1. The message names the regions and the place
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_BOUNDARY` if regions of one layer overlap or cross
+    /// - `ICC_ERR_TOPOLOGY` if the layers differ, or nothing is left
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: O(n log n) time and O(n) memory for n vertices, and O(k^2) to O(k^3) time for k islands of one
+    /// region.
+    pub fn icc_coverage_create(
+        out: *mut *mut icc_coverage,
+        source: *const icc_layer,
+        target: *const icc_layer,
+        options: *const icc_coverage_options,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Frees a coverage.
+    pub fn icc_coverage_free(coverage: *mut icc_coverage);
+
+    /// The source with common vertices. It belongs to the coverage. NULL gives NULL.
+    pub fn icc_coverage_source(coverage: *const icc_coverage) -> *const icc_domain;
+
+    /// The target with common vertices. It belongs to the coverage. NULL gives NULL.
+    pub fn icc_coverage_target(coverage: *const icc_coverage) -> *const icc_domain;
+
+    /// Tells what was done.
+    pub fn icc_coverage_get_info(coverage: *const icc_coverage, info: *mut icc_coverage_info) -> icc_status;
+
+    /// The rings of both domains, sorted by region: outer rings (`ICC_FEATURE_REGION`) and holes, also those
+    /// that another region fills. Rings of the same number correspond vertex by vertex. Outer rings run
+    /// counter-clockwise and holes clockwise. No ring passes through a place twice.
+    ///
+    /// - `coverage`: the coverage
+    /// - `source` (out): `icc_coverage_info.n_features` features, which belong to the coverage; may be NULL
+    /// - `target` (out): the same for the target; may be NULL
+    pub fn icc_coverage_get_features(
+        coverage: *const icc_coverage,
+        source: *const *mut icc_feature,
+        target: *const *mut icc_feature,
+    ) -> icc_status;
+
+    /// Writes the region of each feature to `ids`, which has room for `icc_coverage_info.n_features` numbers.
+    pub fn icc_coverage_get_ids(coverage: *const icc_coverage, ids: *mut i64) -> icc_status;
+
+    /// Describes difference k, 0 \<= k \< `icc_coverage_info.n_differences`. Those of the source come first.
+    pub fn icc_coverage_get_difference(
+        coverage: *const icc_coverage,
+        k: usize,
+        difference: *mut icc_coverage_difference,
+    ) -> icc_status;
 }
