@@ -34,7 +34,7 @@ static const cages *make_cages(bool holes)
     }
     require(icc_map_create(&c->map, c->domains[0], c->domains[1], NULL, NULL, NULL) == ICC_OK);
     carrier_start(&c->carrier, false, NULL);
-    require(carrier_add(&c->carrier, c->map, c->domains[0], c->domains[1], CARRIER_ALL) == ICC_OK);
+    require(carrier_add(&c->carrier, c->map, c->domains[0], c->domains[1]) == ICC_OK);
     carrier_set_snap(&c->carrier, -1);
     return c;
 }

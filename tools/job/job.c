@@ -243,6 +243,24 @@ static size_t n_vertices(const job *j)
     return strcmp(j->args->command, "match") == 0 ? j->matched.n_vertices : j->cages[0].n;
 }
 
+/* Writes what the source has inside, and how that meets. */
+static void report_inside(json *out, const job *j)
+{
+    const cage *c = &j->cages[0];
+    icc_domain_info info = {.size = sizeof info};
+    json_open(out, "inside", '{');
+    json_count(out, "holes", cage_count(c, ICC_FEATURE_HOLE));
+    json_count(out, "regions", cage_count(c, ICC_FEATURE_REGION));
+    json_count(out, "lines", cage_count(c, ICC_FEATURE_LINE));
+    json_count(out, "points", cage_count(c, ICC_FEATURE_POINT));
+    if (j->domains[0] != NULL && icc_domain_get_info(j->domains[0], &info) == ICC_OK) {
+        json_count(out, "junctions", info.n_junctions);
+        json_count(out, "pieces", info.n_pieces);
+        json_count(out, "faces", info.n_faces);
+    }
+    json_close(out, '}');
+}
+
 bool report_open(report *r, const job *j)
 {
     if (!outfile_open(&r->file, j->args->json_file))
@@ -263,14 +281,8 @@ bool report_open(report *r, const job *j)
     }
     if (cage_outlines(&j->cages[0]) > 1)
         json_count(&r->json, "polygons", cage_outlines(&j->cages[0]));
-    if (j->cages[0].n_features > 0) {
-        json_open(&r->json, "inside", '{');
-        json_count(&r->json, "holes", cage_count(&j->cages[0], ICC_FEATURE_HOLE));
-        json_count(&r->json, "regions", cage_count(&j->cages[0], ICC_FEATURE_REGION));
-        json_count(&r->json, "lines", cage_count(&j->cages[0], ICC_FEATURE_LINE));
-        json_count(&r->json, "points", cage_count(&j->cages[0], ICC_FEATURE_POINT));
-        json_close(&r->json, '}');
-    }
+    if (j->cages[0].n_features > 0)
+        report_inside(&r->json, j);
     if (j->matched.size > 0)
         match_report(&r->json, &j->matched);
     if (j->cages[0].n_facets > 0)

@@ -58,6 +58,11 @@ static void print_plane(const cage *c, const icc_domain_info *info, size_t n_add
            : info->orientation > 0 ? "counter-clockwise, "
                                    : "clockwise, ",
            info->measure, cage_inside_text(inside, c));
+    if (info->n_junctions > 0)
+        printf("; %zu %s, %zu %s, %zu %s", info->n_junctions,
+               info->n_junctions == 1 ? "junction" : "junctions", info->n_pieces,
+               info->n_pieces == 1 ? "piece" : "pieces", info->n_faces,
+               info->n_faces == 1 ? "face" : "faces");
     if (n_added > 0)
         printf("; %zu %s added to sides on which others lie", n_added,
                n_added == 1 ? "vertex was" : "vertices were");
