@@ -14,9 +14,10 @@
  * - partner: the node, border or piece of the other layer that it is paired with.
  *
  * Ways: layer_read.c reads rings, layer_weld.c joins vertices, layer_insert.c puts vertices into
- * sides, layer_sides.c makes the sides. layer_graph.h finds nodes and borders, layer_rings.h the
- * rings. layer_pairing.h pairs them, leave_out.h drops what differs, border_vertices.h pairs
- * the vertices along borders, and coverage_features.h makes the features.
+ * sides, layer_sides.c makes the sides. layer_graph.h finds nodes and borders, with layer_check.h,
+ * which refuses regions that overlap. layer_rings.h finds the rings. layer_pairing.h pairs them,
+ * leave_out.h drops what differs, border_vertices.h pairs the vertices along borders, and
+ * coverage_features.h makes the features.
  *
  * Invariants
  * - Places keep their coordinates bit by bit. Only vertices move, to places.
@@ -84,7 +85,7 @@ icc_status iccp_layer_measure(iccp_layer *layer, const iccp_env *env);
 icc_status iccp_layer_join(iccp_layer *layer, const iccp_env *env, icc_error *err);
 
 /* Reports ICC_ERR_BOUNDARY: two regions (or one, with itself) overlap at a place. */
-icc_status iccp_layer_overlap(const iccp_layer *layer, uint32_t a, uint32_t b, uint32_t place,
+icc_status iccp_layer_overlap(const iccp_layer *layer, uint32_t a, uint32_t b, const double *place,
                               icc_error *err);
 
 /* A place in the caller's coordinates. */

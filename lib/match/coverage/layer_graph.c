@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 #include "base/sort.h"
+#include "geometry/segment.h"
+#include "match/coverage/layer_check.h"
 #include "math/predicates.h"
 
 #include <string.h>
@@ -16,21 +18,16 @@ void iccp_layer_graph_free(iccp_layer_graph *graph, const iccp_memory *memory)
     iccp_free(memory, graph->course);
 }
 
-/* Returns true if q lies above v, or to the right at the same height. */
-static bool is_upper(const double *v, const double *q)
-{
-    return q[1] > v[1] || (q[1] == v[1] && q[0] > v[0]);
-}
-
-/* Orders half-sides that leave one place counter-clockwise, from the direction of x on. */
+/* Orders half-sides that leave one place counter-clockwise from direction (0, -1), which is
+ * excluded. */
 static bool is_before(const void *context, uint32_t a, uint32_t b)
 {
     const iccp_layer *const layer = context;
     const double *const v = layer->place + 2 * (size_t)iccp_half_from(layer, a);
     const double *const p = layer->place + 2 * (size_t)iccp_half_from(layer, a ^ 1);
     const double *const q = layer->place + 2 * (size_t)iccp_half_from(layer, b ^ 1);
-    const bool above = is_upper(v, p);
-    return above != is_upper(v, q) ? above : iccp_orient2d(v, p, q) > 0;
+    const bool is_forward = iccp_point_less(v, p);
+    return is_forward != iccp_point_less(v, q) ? is_forward : iccp_orient2d(v, p, q) > 0;
 }
 
 /* Lists the half-sides around each place in order. `work` has room for all half-sides. */
@@ -57,14 +54,15 @@ static icc_status check(const iccp_layer_graph *graph, icc_error *err)
     for (uint32_t v = 0; v < layer->n; ++v) {
         const uint32_t *const h = graph->leaving + graph->first[v];
         const uint32_t n = iccp_graph_degree(graph, v);
+        const double *const at = layer->place + 2 * (size_t)v;
         for (uint32_t k = 0; k < n; ++k) {
             const uint32_t next = h[(k + 1) % n];
             const uint32_t a = iccp_half_left(layer, h[k]), b = iccp_half_left(layer, next ^ 1);
             if (a != b)
-                return iccp_layer_overlap(layer, a, b, v, err);
+                return iccp_layer_overlap(layer, a, b, at, err);
             if (k + 1 < n && !is_before(layer, h[k], next))
                 return iccp_layer_overlap(layer, iccp_half_left(layer, h[k] ^ 1),
-                                          iccp_half_left(layer, next), v, err);
+                                          iccp_half_left(layer, next), at, err);
         }
     }
     return ICC_OK;
@@ -129,7 +127,9 @@ icc_status iccp_layer_graph_create(iccp_layer_graph *graph, const iccp_layer *la
         graph->at == NULL || graph->course == NULL)
         return iccp_fail_memory(err);
     order(graph, graph->course);
-    const icc_status status = check(graph, err);
+    icc_status status = check(graph, err);
+    if (status == ICC_OK)
+        status = iccp_layer_check(graph, env, err);
     if (status == ICC_OK)
         find_borders(graph);
     return status;

@@ -26,12 +26,12 @@ void iccp_layer_free(iccp_layer *layer, const iccp_memory *memory)
     iccp_free(memory, layer->side);
 }
 
-icc_status iccp_layer_overlap(const iccp_layer *layer, uint32_t a, uint32_t b, uint32_t place,
+icc_status iccp_layer_overlap(const iccp_layer *layer, uint32_t a, uint32_t b, const double *place,
                               icc_error *err)
 {
     const int64_t *const id = layer->regions->id;
     double at[2];
-    iccp_layer_given(layer, place, at);
+    iccp_frame_restore(&layer->frame, 2, place, at);
     if (a == ICCP_NO_REGION && b == ICCP_NO_REGION)
         return iccp_fail(err, ICC_ERR_BOUNDARY, "regions overlap at (%.9g, %.9g)", at[0], at[1]);
     if (a == ICCP_NO_REGION)

@@ -39,10 +39,10 @@ static icc_status add_region(iccp_layer_side *side, const iccp_layer *layer, siz
     if (net == 0)
         return ICC_OK;
     uint32_t *const to = &side->region[net > 0 ? 0 : 1];
-    if (net > 1 || net < -1)
-        return iccp_layer_overlap(layer, region, region, side->end[0], err);
-    if (*to != ICCP_NO_REGION)
-        return iccp_layer_overlap(layer, region, *to, side->end[0], err);
+    const uint32_t other = net > 1 || net < -1 ? region : *to;
+    if (other != ICCP_NO_REGION)
+        return iccp_layer_overlap(layer, region, other, layer->place + 2 * (size_t)side->end[0],
+                                  err);
     *to = region;
     return ICC_OK;
 }

@@ -193,6 +193,65 @@ START_TEST(regions_that_overlap_are_named)
 }
 END_TEST
 
+/* Regions may overlap without sides that cross. */
+START_TEST(regions_inside_others_are_named)
+{
+    static const double nested[] = {0, 0, 9, 0, 9, 9, 0, 9, 3, 3, 6, 3, 6, 6, 3, 6};
+    static const double apart[] = {0, 0, 9, 0, 9, 9, 0, 9, 13, 3, 16, 3, 16, 6, 13, 6};
+    static const double bow[] = {0, 0, 2, 2, 2, 0, 0, 2};
+    static const int64_t twice[] = {7, 7};
+    static const uint8_t second[] = {0, 1};
+    static const struct {
+        const double *vertices;
+        const int64_t *ids;
+        const uint8_t *holes;
+        size_t n_rings;
+        const char *message;
+    } cases[] = {{nested, seven_eight, NULL, 2, "source: regions 7 and 8 overlap at (3, 3)"},
+                 {nested, twice, NULL, 2, "source: region 7 overlaps itself at (3, 3)"},
+                 {nested, twice, second, 2, NULL},
+                 {apart, twice, NULL, 2, NULL},
+                 {apart, twice, second, 2, "source: a hole of region 7 lies outside it at (13, 3)"},
+                 {bow, twice, NULL, 1, "source: region 7 overlaps itself at (1, 1)"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        const icc_layer layer = {.size = sizeof layer,
+                                 .n_rings = cases[k].n_rings,
+                                 .first = of_squares,
+                                 .vertices = cases[k].vertices,
+                                 .ids = cases[k].ids,
+                                 .holes = cases[k].holes};
+        icc_coverage *coverage = NULL;
+        icc_error err = {.size = sizeof err};
+        const icc_status status = icc_coverage_create(&coverage, &layer, &layer, NULL, NULL, &err);
+        ck_assert_int_eq(status, cases[k].message == NULL ? ICC_OK : ICC_ERR_BOUNDARY);
+        if (cases[k].message != NULL)
+            ck_assert_str_eq(err.message, cases[k].message);
+        icc_coverage_free(coverage);
+    }
+}
+END_TEST
+
+/* A hole whose centre is that of its region: the two centres tell no direction and no scale. */
+START_TEST(rings_with_one_centre_are_paired)
+{
+    static const double rings[] = {0, 0, 9, 0, 9, 9, 0, 9, 3, 3, 6, 3, 6, 6, 3, 6};
+    static const int64_t twice[] = {7, 7};
+    static const uint8_t second[] = {0, 1};
+    const icc_layer layer = {.size = sizeof layer,
+                             .n_rings = 2,
+                             .first = of_squares,
+                             .vertices = rings,
+                             .ids = twice,
+                             .holes = second};
+    icc_coverage *coverage;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_coverage_create(&coverage, &layer, &layer, NULL, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    ck_assert_uint_eq(info_of(coverage).n_vertices, 8);
+    icc_coverage_free(coverage);
+}
+END_TEST
+
 /* A chain of vertices, each within the weld length of the next, is not drawn together. */
 START_TEST(welding_makes_no_chains)
 {
@@ -304,6 +363,8 @@ int main(void)
     tcase_add_test(tests, given_vertices_are_common_vertices);
     tcase_add_test(tests, differences_are_named_or_left_out);
     tcase_add_test(tests, regions_that_overlap_are_named);
+    tcase_add_test(tests, regions_inside_others_are_named);
+    tcase_add_test(tests, rings_with_one_centre_are_paired);
     tcase_add_test(tests, welding_makes_no_chains);
     tcase_add_test(tests, wrong_arguments_are_refused);
     tcase_add_test(tests, islands_are_paired_by_place);
