@@ -236,7 +236,9 @@ static icc_status create(icc_domain **out, size_t n_outer, const double *outer, 
     for (size_t f = 0; f < n_features; ++f)
         has_regions |= features[f].kind == ICC_FEATURE_REGION;
     icc_status status = ICC_OK;
-    if (n_outer > 0 || !has_regions)
+    if (n_outer == 0 && !has_regions)
+        return iccp_fail(err, ICC_ERR_BOUNDARY, "there must be an outer ring or a region");
+    if (n_outer > 0)
         status = iccp_polygon_check_counts(n_outer, 0, NULL, err);
     if (status != ICC_OK)
         return status;

@@ -86,15 +86,17 @@ static icc_status fail_cross(const cutter *k, uint32_t a, uint32_t b)
                         (unsigned long)b);
 }
 
+/* Looks for the edge around both of its ends at once. It ends with the end of fewer triangles. */
 static bool is_present(const cutter *k)
 {
-    const uint32_t first = k->corner_of[k->from];
-    uint32_t corner = first;
+    const uint32_t first = k->corner_of[k->from], other_first = k->corner_of[k->to];
+    uint32_t corner = first, other = other_first;
     do {
-        if (vertex_at(k, iccp_after(corner)) == k->to)
+        if (vertex_at(k, iccp_after(corner)) == k->to || vertex_at(k, iccp_after(other)) == k->from)
             return true;
         corner = iccp_around(k->mesh, corner);
-    } while (corner != first);
+        other = iccp_around(k->mesh, other);
+    } while (corner != first && other != other_first);
     return false;
 }
 

@@ -22,12 +22,15 @@ icc_status iccp_walls_create(iccp_walls *walls, size_t n_points, size_t n_walls,
                              const uint32_t *pairs, const iccp_memory *memory);
 void iccp_walls_free(iccp_walls *walls, const iccp_memory *memory);
 
-/* Returns the half-wall from a to b, or UINT32_MAX. O(walls at a). */
+/* Returns the half-wall from a to b, or UINT32_MAX. O(walls at the point that has fewer). */
 static inline uint32_t iccp_walls_find(const iccp_walls *walls, uint32_t a, uint32_t b)
 {
-    for (uint32_t k = walls->first[a]; k < walls->first[a + 1]; ++k)
-        if (walls->other[k] == b)
-            return walls->half[k];
+    const uint32_t *const first = walls->first;
+    const uint32_t is_back = first[b + 1] - first[b] < first[a + 1] - first[a];
+    const uint32_t from = is_back ? b : a, to = is_back ? a : b;
+    for (uint32_t k = first[from]; k < first[from + 1]; ++k)
+        if (walls->other[k] == to)
+            return walls->half[k] ^ is_back;
     return UINT32_MAX;
 }
 

@@ -61,9 +61,11 @@ static bool add_ring(layer *l, const json_item *ring, const char *name, bool is_
         l->vertices[2 * l->n] = x->number;
         l->vertices[2 * l->n++ + 1] = y->number;
     }
-    const double *p = l->vertices + 2 * begin, *q = l->vertices + 2 * (l->n - 1);
-    if (n > 1 && p[0] == q[0] && p[1] == q[1])
-        l->n--;
+    if (n > 1) {
+        const double *p = l->vertices + 2 * begin, *q = l->vertices + 2 * (l->n - 1);
+        if (p[0] == q[0] && p[1] == q[1])
+            l->n--;
+    }
     if (l->n - begin < 3)
         return spoilt(wrong, 0, "a ring of \"%.60s\" has fewer than 3 vertices", name);
     l->names = grow(l->names, &l->room_names, l->n_rings + 1, sizeof *l->names);

@@ -62,27 +62,34 @@ static int by_number(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Sorts numbers and drops repeated ones. Returns how many are left. */
-static size_t sort_ids(int64_t *ids, size_t n)
+/* A region of one layer. */
+typedef struct region {
+    int64_t id;
+    size_t ring; /* the first one */
+} region;
+
+static int by_id(const void *a, const void *b)
 {
-    size_t kept = 0;
-    iccp_sort(ids, n, sizeof *ids, by_number);
+    const region *const p = a, *const q = b;
+    return p->id != q->id ? by_number(&p->id, &q->id) : p->ring < q->ring ? -1 : p->ring > q->ring;
+}
+
+/* Lists the regions of a layer in the order of their numbers. Returns how many there are. */
+static size_t list_regions(region *out, const icc_layer *layer, const iccp_regions *left_out)
+{
+    size_t n = 0, kept = 0;
+    for (size_t r = 0; r < layer->n_rings; ++r)
+        if (iccp_regions_find(left_out, layer->ids[r]) == ICCP_NO_REGION)
+            out[n++] = (region){layer->ids[r], r};
+    iccp_sort(out, n, sizeof *out, by_id);
     for (size_t k = 0; k < n; ++k)
-        if (k == 0 || ids[k] != ids[k - 1])
-            ids[kept++] = ids[k];
+        if (k == 0 || out[k].id != out[k - 1].id)
+            out[kept++] = out[k];
     return kept;
 }
 
-static bool is_left_out(const icc_coverage_options *options, int64_t id)
-{
-    for (size_t k = 0; k < options->n_left_out; ++k)
-        if (options->left_out[k] == id)
-            return true;
-    return false;
-}
-
 /* Adds a region that only layer e has to the differences. */
-static void add_region(making *m, int64_t id, size_t e)
+static void add_region(making *m, const region *only, size_t e)
 {
     icc_coverage_difference *const d = &m->coverage->difference[m->coverage->info.n_differences++];
     const icc_layer *const given = m->given[e];
@@ -90,43 +97,51 @@ static void add_region(making *m, int64_t id, size_t e)
                                    .kind = ICC_DIFFERENCE_REGION,
                                    .side = (int32_t)e + 1,
                                    .n_ids = 1,
-                                   .ids = {id, 0}};
-    for (size_t r = given->n_rings; r-- > 0;)
-        if (given->ids[r] == id)
-            memcpy(d->place, given->vertices + 2 * given->first[r], sizeof d->place);
+                                   .ids = {only->id, 0}};
+    memcpy(d->place, given->vertices + 2 * given->first[only->ring], sizeof d->place);
+}
+
+/* Goes through the regions of both layers side by side. */
+static void compare_regions(making *m, const region *const *list, const size_t *n)
+{
+    size_t at[2] = {0, 0};
+    while (at[0] < n[0] || at[1] < n[1]) {
+        const region *const a = list[0] + at[0], *const b = list[1] + at[1];
+        const bool is_source = at[0] < n[0] && (at[1] == n[1] || a->id <= b->id);
+        const bool is_target = at[1] < n[1] && (at[0] == n[0] || b->id <= a->id);
+        if (is_source && is_target)
+            m->regions.id[m->regions.n++] = a->id;
+        else
+            add_region(m, is_source ? a : b, is_source ? 0 : 1);
+        at[0] += is_source;
+        at[1] += is_target;
+    }
 }
 
 /* Finds the regions that both layers have. */
 static icc_status find_regions(making *m, const iccp_memory *memory)
 {
-    int64_t *ids[2] = {NULL, NULL};
-    size_t n[2] = {0, 0}, at[2] = {0, 0};
-    const size_t most = m->given[0]->n_rings + m->given[1]->n_rings;
-    bool has_all = true;
-    for (int e = 0; e < 2; ++e) {
-        ids[e] = iccp_alloc(memory, m->given[e]->n_rings, sizeof *ids[e]);
-        has_all = has_all && ids[e] != NULL;
-        for (size_t r = 0; r < m->given[e]->n_rings && has_all; ++r)
-            if (!is_left_out(m->options, m->given[e]->ids[r]))
-                ids[e][n[e]++] = m->given[e]->ids[r];
-        n[e] = has_all ? sort_ids(ids[e], n[e]) : 0;
-    }
+    const size_t n_rings[2] = {m->given[0]->n_rings, m->given[1]->n_rings};
+    const size_t most = n_rings[0] + n_rings[1];
+    iccp_regions left_out = {.n = m->options->n_left_out};
+    region *const list[2] = {iccp_alloc(memory, n_rings[0], sizeof *list[0]),
+                             iccp_alloc(memory, n_rings[1], sizeof *list[1])};
+    left_out.id = iccp_alloc(memory, left_out.n, sizeof *left_out.id);
     m->regions.id = iccp_alloc(memory, most, sizeof *m->regions.id);
     m->coverage->difference = iccp_alloc(memory, most, sizeof *m->coverage->difference);
-    has_all = has_all && m->regions.id != NULL && m->coverage->difference != NULL;
-    while (has_all && (at[0] < n[0] || at[1] < n[1])) {
-        const bool is_source = at[0] < n[0] && (at[1] == n[1] || ids[0][at[0]] <= ids[1][at[1]]);
-        const bool is_target = at[1] < n[1] && (at[0] == n[0] || ids[1][at[1]] <= ids[0][at[0]]);
-        const int64_t id = is_source ? ids[0][at[0]] : ids[1][at[1]];
-        if (is_source && is_target)
-            m->regions.id[m->regions.n++] = id;
-        else
-            add_region(m, id, is_source ? 0 : 1);
-        at[0] += is_source;
-        at[1] += is_target;
+    const bool has_all = list[0] != NULL && list[1] != NULL && left_out.id != NULL &&
+                         m->regions.id != NULL && m->coverage->difference != NULL;
+    if (has_all) {
+        for (size_t k = 0; k < left_out.n; ++k)
+            left_out.id[k] = m->options->left_out[k];
+        iccp_sort(left_out.id, left_out.n, sizeof *left_out.id, by_number);
+        const size_t n[2] = {list_regions(list[0], m->given[0], &left_out),
+                             list_regions(list[1], m->given[1], &left_out)};
+        compare_regions(m, (const region *const[]){list[0], list[1]}, n);
     }
-    iccp_free(memory, ids[0]);
-    iccp_free(memory, ids[1]);
+    iccp_free(memory, list[0]);
+    iccp_free(memory, list[1]);
+    iccp_free(memory, left_out.id);
     return has_all ? ICC_OK : ICC_ERR_MEMORY;
 }
 

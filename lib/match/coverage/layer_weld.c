@@ -5,6 +5,7 @@
 #include "match/coverage/layer.h"
 
 #include "base/sort.h"
+#include "domain/domain.h"
 #include "geometry/facet_tree.h"
 #include "geometry/point_order.h"
 #include "geometry/segment.h"
@@ -23,6 +24,8 @@ typedef struct welding {
     uint32_t *list; /* places in the order of x and y, then pairs of the tree */
     size_t n_list;
     iccp_facet_tree tree;
+    size_t n_visited; /* places since the last report: many if the weld length is long */
+    const iccp_env *env;
 } welding;
 
 static icc_status reserve(welding *w, const iccp_memory *memory)
@@ -75,11 +78,11 @@ static void query_around(iccp_facet_query *query, const welding *w, uint32_t v)
 }
 
 /* The next place within the weld length of v, and its squared distance. */
-static bool next_near(const welding *w, iccp_facet_query *query, uint32_t v, uint32_t *near,
-                      double *d2)
+static bool next_near(welding *w, iccp_facet_query *query, uint32_t v, uint32_t *near, double *d2)
 {
     uint32_t at;
     while (iccp_facet_query_next(query, &at)) {
+        ++w->n_visited;
         *near = w->list[2 * (size_t)at];
         *d2 = iccp_vec_distance2(2, w->layer->place + 2 * (size_t)v,
                                  w->layer->place + 2 * (size_t)*near);
@@ -89,10 +92,19 @@ static bool next_near(const welding *w, iccp_facet_query *query, uint32_t v, uin
     return false;
 }
 
-/* Chooses the places that stand for others, and the nearest of them for each other place. */
-static void choose(welding *w)
+static icc_status report(welding *w, double share)
 {
-    for (size_t k = 0; k < w->n_list; ++k) {
+    if (w->n_visited < ICCP_VERTICES_PER_REPORT)
+        return ICC_OK;
+    w->n_visited = 0;
+    return iccp_progress(w->env, NULL, share);
+}
+
+/* Chooses the places that stand for others, and the nearest of them for each other place. */
+static icc_status choose(welding *w)
+{
+    icc_status status = ICC_OK;
+    for (size_t k = 0; k < w->n_list && status == ICC_OK; ++k) {
         const uint32_t v = w->list[2 * k];
         uint32_t near;
         double d2;
@@ -107,14 +119,17 @@ static void choose(welding *w)
                 w->lead[near] = v;
                 w->far2[near] = d2;
             }
+        status = report(w, 0.5 * (double)k / (double)w->n_list);
     }
+    return status;
 }
 
 /* Counts the places that have a neighbour within the weld length which moved elsewhere. */
-static void count_chains(welding *w)
+static icc_status count_chains(welding *w)
 {
     iccp_layer *const layer = w->layer;
-    for (size_t k = 0; k < w->n_list; ++k) {
+    icc_status status = ICC_OK;
+    for (size_t k = 0; k < w->n_list && status == ICC_OK; ++k) {
         const uint32_t v = w->list[2 * k];
         uint32_t near;
         double d2;
@@ -125,7 +140,9 @@ static void count_chains(welding *w)
             is_chain = w->lead[near] != w->lead[v];
         if (is_chain && layer->n_chains++ == 0)
             memcpy(layer->chain, layer->place + 2 * (size_t)v, sizeof layer->chain);
+        status = report(w, 0.5 + 0.5 * (double)k / (double)w->n_list);
     }
+    return status;
 }
 
 /* Drops the places that nothing moved to, and edges that became points. */
@@ -159,21 +176,19 @@ static void compress(welding *w)
 
 icc_status iccp_layer_weld(iccp_layer *layer, const iccp_env *env)
 {
-    welding w = {.layer = layer};
+    welding w = {.layer = layer, .env = env};
     icc_status status = reserve(&w, &env->memory);
     if (status == ICC_OK) {
         join_equal(&w);
         iccp_facet_tree_create(&w.tree, 2, layer->place, w.n_list, w.list, &env->memory);
         status = w.tree.boxes != NULL ? iccp_progress(env, NULL, 0) : ICC_ERR_MEMORY;
     }
-    if (status == ICC_OK) {
-        choose(&w);
-        status = iccp_progress(env, NULL, 0.5);
-    }
-    if (status == ICC_OK) {
-        count_chains(&w);
+    if (status == ICC_OK)
+        status = choose(&w);
+    if (status == ICC_OK)
+        status = count_chains(&w);
+    if (status == ICC_OK)
         compress(&w);
-    }
     release(&w, &env->memory);
     return status;
 }

@@ -324,6 +324,7 @@ START_TEST(known_defects)
          4,
          -1,
          "a polygon needs at least 3 vertices, not 2"},
+        {{1, {{0, 0, {{0, 0}}}, POINT(2, 1)}}, 4, -1, "there must be an outer ring or a region"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         const known *k = &cases[i];

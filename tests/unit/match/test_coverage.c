@@ -355,6 +355,36 @@ START_TEST(islands_are_paired_by_place)
 }
 END_TEST
 
+/* The places of the regions tell nothing here: those of the target are mirrored. */
+START_TEST(islands_at_mirrored_places_are_paired_by_number)
+{
+    double vertices[2][8 * 4];
+    size_t first[5] = {0, 4, 8, 12, 16};
+    const int64_t ids[4] = {1, 2, 3, 4};
+    icc_layer layer[2];
+    for (int e = 0; e < 2; ++e) {
+        for (size_t r = 0; r < 4; ++r)
+            for (size_t k = 0; k < 4; ++k) {
+                const double y = r >= 2 ? 10 : 0;
+                vertices[e][8 * r + 2 * k] = (r % 2 == 0 ? 0 : 10) + (k == 1 || k == 2 ? 3 : 0);
+                vertices[e][8 * r + 2 * k + 1] = (e == 0 ? y : 10 - y) + (k >= 2 ? 3 : 0);
+            }
+        layer[e] = (icc_layer){.size = sizeof layer[e],
+                               .n_rings = 4,
+                               .first = first,
+                               .vertices = vertices[e],
+                               .ids = ids};
+    }
+    icc_coverage *coverage;
+    ck_assert_int_eq(icc_coverage_create(&coverage, &layer[0], &layer[1], NULL, NULL, NULL),
+                     ICC_OK);
+    const icc_coverage_info info = info_of(coverage);
+    ck_assert_uint_eq(info.n_islands, 4);
+    ck_assert_uint_eq(info.n_settled, 0);
+    icc_coverage_free(coverage);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("coverage");
@@ -368,6 +398,7 @@ int main(void)
     tcase_add_test(tests, welding_makes_no_chains);
     tcase_add_test(tests, wrong_arguments_are_refused);
     tcase_add_test(tests, islands_are_paired_by_place);
+    tcase_add_test(tests, islands_at_mirrored_places_are_paired_by_number);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
