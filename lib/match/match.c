@@ -2,6 +2,7 @@
 #include "match/match.h"
 
 #include "base/error.h"
+#include "base/minmax.h"
 #include "match/feature_pairing.h"
 #include "match/match_apply.h"
 #include "match/outline/ring_pairing.h"
@@ -77,8 +78,8 @@ static void fill_in(icc_match_info *info, const iccp_paired_parts *paired,
     for (size_t k = 0; k < paired->parts[0].n; ++k) {
         const iccp_part_pair *const pair = &paired->pair[k];
         const iccp_elastic_report *const report = &pair->report;
-        info->least_slope = fmin(info->least_slope, pair->common.least);
-        info->most_slope = fmax(info->most_slope, pair->common.most);
+        info->least_slope = iccp_min(info->least_slope, pair->common.least);
+        info->most_slope = iccp_max(info->most_slope, pair->common.most);
         if (pair->is_placed || (!is_first && report->sure >= info->sure))
             continue;
         is_first = false;

@@ -12,8 +12,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 void iccp_coverage_release(icc_coverage *coverage)
 {
@@ -243,21 +241,39 @@ static void count_left_out(making *m)
     }
 }
 
+/* Returns what follows the word in a text that begins with it, or NULL. */
+static const char *skip(const char *text, const char *word)
+{
+    for (; *word != '\0'; ++word, ++text)
+        if (*text != *word)
+            return NULL;
+    return text;
+}
+
+/* Reads the number after the word "feature ". Returns what follows it, or NULL. */
+static const char *read_feature(const char *text, size_t *feature)
+{
+    text = skip(text, "feature ");
+    if (text == NULL || *text < '0' || *text > '9')
+        return NULL;
+    for (*feature = 0; *text >= '0' && *text <= '9'; ++text)
+        *feature = 10 * *feature + (size_t)(*text - '0');
+    return text;
+}
+
 /* Copies a message of the domain, with regions instead of features: "feature 3 (a region)" becomes
  * "region 17". */
 static void name_regions(char *out, size_t room, const icc_coverage *coverage, const char *message)
 {
-    static const char feature[] = "feature ", kind[] = " (a region)";
     size_t n = 0;
     while (*message != '\0' && n + 1 < room) {
-        char *end = NULL;
-        size_t f = SIZE_MAX;
-        if (strncmp(message, feature, sizeof feature - 1) == 0)
-            f = strtoul(message + sizeof feature - 1, &end, 10);
-        if (f < coverage->n_features) {
+        size_t f = 0;
+        const char *const end = read_feature(message, &f);
+        if (end != NULL && f < coverage->n_features) {
             const int used = snprintf(out + n, room - n, "region %" PRId64, coverage->id[f]);
             n = n + (size_t)used < room ? n + (size_t)used : room - 1;
-            message = strncmp(end, kind, sizeof kind - 1) == 0 ? end + sizeof kind - 1 : end;
+            const char *const kind = skip(end, " (a region)");
+            message = kind != NULL ? kind : end;
         } else
             out[n++] = *message++;
     }
