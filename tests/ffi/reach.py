@@ -20,16 +20,15 @@ COMMENT = re.compile(r'/\*.*?\*/|//[^\n]*|""".*?"""', re.S)
 
 OTHER_HEADER = "of icc/kernel.h and icc/stages.h, which icc.hpp leaves to icc::call() and icc::handle"
 SHAPES = "maps take shapes themselves"
-COVERAGES = {"icc_coverage_" + name: "not written yet; libicc-sys and call() reach it" for name in (
-    "create", "free", "get_difference", "get_features", "get_ids", "get_info", "source", "target")}
 FLAGS = {name: name + "_flags() without flags" for name in ("icc_chart_decode", "icc_chart_encode")}
 LEFT_OUT = {
     "C++": {"icc_map_create_polygons": "icc::map of two icc::domain::polygon",
             **{name: "called as in C, since it makes no object" for name in ("icc_version", "icc_version_number")},
             **{name: OTHER_HEADER for name in ("icc_chart_function", "icc_triangulate")}},
     "Python": {"icc_map_create_polygons": SHAPES, "icc_version_number": "__version__ says it", **FLAGS},
-    "Rust": {"icc_map_create_polygons": SHAPES, **COVERAGES},
-    "JavaScript": {"icc_map_create_polygons": SHAPES, **FLAGS, **COVERAGES},
+    "Rust": {"icc_map_create_polygons": SHAPES},
+    "JavaScript": {"icc_map_create_polygons": SHAPES, **FLAGS,
+                   "icc_coverage_get_features": "the coverage's domains have these features"},
 }
 OF_OTHER_HEADERS = re.compile("icc_(binding|curves|function|grid|pose|sampling|shape|tree|weights)_")
 

@@ -11,9 +11,10 @@ const feature = (kind, points, radius = 0) => {
   return { kind, nVertices: vertices.length / 2, vertices, radius };
 };
 
-/** The features of a shape, in the order holes, lines, points. */
-function featuresOf({ holes = [], lines = [], points = [], radii = [] }) {
-  return [...holes.map((hole) => feature('hole', hole)), ...lines.map((line) => feature('line', line)),
+/** The features of a shape, in the order regions, holes, lines, points. */
+function featuresOf({ regions = [], holes = [], lines = [], points = [], radii = [] }) {
+  const rings = [...regions.map((region) => feature('region', region)), ...holes.map((hole) => feature('hole', hole))];
+  return [...rings, ...lines.map((line) => feature('line', line)),
     ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
 }
 
@@ -51,9 +52,9 @@ export function domainOf(core) {
       super(core, address, none, 'icc_domain_free', lender);
     }
 
-    /** A simple polygon with features inside: { holes, lines, points, radii }. */
+    /** A simple polygon with features: { regions, holes, lines, points, radii }. The outline may be null if there are regions. */
     static polygon(outline, features = {}) {
-      const outer = ring(outline);
+      const outer = outline === null ? new Float64Array() : ring(outline);
       const inside = featuresOf(features);
       return new Domain(inside.length === 0
         ? core.made('icc_domain_create', 2, outer.length / 2, outer, 0, null)

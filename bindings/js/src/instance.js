@@ -1,6 +1,7 @@
 // An instance of the library: its module, memory and classes.
 import { chartOf } from './chart.js';
 import { Core } from './core.js';
+import { coverageOf } from './coverage.js';
 import { domainOf, shapesOf } from './domain.js';
 import { IccError, codeOf } from './error.js';
 import { fitOf } from './fit.js';
@@ -29,8 +30,8 @@ export async function compiled(source) {
 /** The classes over a core. Without a core they are only descriptions. */
 export function classesOf(core) {
   const Domain = domainOf(core), Chart = chartOf(core, Domain), Map = mapOf(core, Domain, Chart);
-  const Match = matchOf(core, Domain), Fit = fitOf(core, Domain, Map);
-  return { Domain, Chart, Map, Match, Fit, ...kernelOf(core), ...stagesOf(core) };
+  const Match = matchOf(core, Domain), Coverage = coverageOf(core, Domain), Fit = fitOf(core, Domain, Map);
+  return { Domain, Chart, Map, Match, Coverage, Fit, ...kernelOf(core), ...stagesOf(core) };
 }
 
 /**

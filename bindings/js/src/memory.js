@@ -15,7 +15,7 @@ const OUT_OF_MEMORY = 2;
 /** The typed array for a C type; void means bytes. */
 const ARRAYS = {
   double: Float64Array, int32_t: Int32Array, icc_status: Int32Array, uint32_t: Uint32Array,
-  size_t: Uint32Array, uint8_t: Uint8Array, void: Uint8Array,
+  size_t: Uint32Array, int64_t: BigInt64Array, uint8_t: Uint8Array, void: Uint8Array,
 };
 
 /** The typed array for what a type of C points to, or undefined for structs and handles. */
@@ -92,7 +92,7 @@ export class Memory {
     const element = pointee(type);
     if (structs[element]) return this.#putStructs(element, Array.isArray(value) ? value : [value]);
     const Type = ARRAYS[element];
-    const values = value instanceof Type ? value
+    const values = value instanceof Type ? value : Type === BigInt64Array ? Type.from(numbersOf(value), BigInt)
       : Type.from(Type === Uint8Array && Array.isArray(value) ? value.flat() : numbersOf(value));
     const at = this.take(values.byteLength);
     this.array(Type, at, values.length).set(values);
@@ -146,7 +146,7 @@ export class Memory {
   #readMember(type, at) {
     const array = /^(\w+)\[(\d+)\]$/.exec(type);
     if (array?.[1] === 'char') return this.string(at);
-    if (array) return Array.from(this.array(ARRAYS[array[1]], at, Number(array[2])));
+    if (array) return Array.from(this.array(ARRAYS[array[1]], at, Number(array[2])), Number);
     switch (type) {
       case 'double': return this.view.getFloat64(at, true);
       case 'int64_t': return Number(this.view.getBigInt64(at, true));

@@ -155,6 +155,55 @@ test('outlines that do not correspond are matched', () => {
   assert.throws(() => new icc.Match(SQUARE, SQUARE, [], { turning: 'free' }), { code: 'AMBIGUOUS' });
 });
 
+// Two regions that share a border, which bends in the new layer.
+const OLD = { north: [[0, 1], [4, 1], [4, 2], [0, 2]], south: [[0, 0], [4, 0], [4, 1], [0, 1]] };
+const NEW = { south: [[0, 0], [4, 0], [4, 1], [2, 1.4], [0, 1]], north: [[0, 1], [2, 1.4], [4, 1], [4, 2], [0, 2]] };
+const collection = (layer) => ({ type: 'FeatureCollection', features: Object.entries(layer).map(([name, ring]) => (
+  { type: 'Feature', properties: { name }, geometry: { type: 'Polygon', coordinates: [[...ring, ring[0]]] } })) });
+
+test('two layers of the same regions become one map', () => {
+  for (const coverage of [new icc.Coverage(OLD, NEW), new icc.Coverage(collection(OLD), collection(NEW), { by: 'name' }),
+    new icc.Coverage(new Map(Object.entries(OLD)), NEW)]) {
+    const { nRegions, nNodes, nSides, nIslands, leastApart } = coverage.info;
+    assert.deepEqual([nRegions, nNodes, nSides, nIslands, leastApart.length], [2, 2, 3, 0, 2]);
+    assert.deepEqual(coverage.regions, ['north', 'south']);
+    assert.deepEqual(coverage.differences, []);
+    const map = new icc.Map(coverage.source, coverage.target);
+    assert.ok(map.certified);
+    near(map.apply([[2, 1], [0, 1]]), [2, 1.4, 0, 1]);
+    for (const { hole, source, target } of coverage.rings) {
+      assert.equal(hole, false);
+      near(map.apply(source), target);
+    }
+  }
+});
+
+test('what only one layer has is told by name', () => {
+  const more = { ...NEW, east: [[5, 5], [6, 5], [6, 6]] };
+  assert.throws(() => new icc.Coverage(OLD, more), { code: 'TOPOLOGY', message: /region east, near \(5, 5\), is in the target only/ });
+  assert.deepEqual(new icc.Coverage(OLD, more, { unmatched: 'leave_out' }).differences,
+    [{ kind: 'region', side: 'target', regions: ['east'], place: [5, 5] }]);
+  assert.deepEqual(new icc.Coverage(OLD, more, { leftOut: ['east'] }).differences, []);
+  const over = { ...NEW, south: [[0, 0], [4, 0], [4, 1.2], [0, 1]] };
+  assert.throws(() => new icc.Coverage(OLD, over), { code: 'BOUNDARY', message: /regions north and south overlap/ });
+  assert.throws(() => new icc.Coverage(OLD, { north: 7, south: NEW.south }), /region north is neither/);
+  assert.throws(() => new icc.Coverage(collection(OLD), NEW, { by: 'county' }), /no property 'county'/);
+  const noisy = [0.01, -0.01].map((off) => ({ ...OLD, south: OLD.south.map(([x, y]) => [x + off, y + off]) }));
+  const welded = new icc.Coverage(...noisy, { weld: [0.03, 0.03] });
+  assert.ok(Math.max(...welded.info.mostMoved) <= 0.03 && new icc.Map(welded.source, welded.target).certified);
+});
+
+test('a domain may have several outlines, an island in a lake, and lines that meet', () => {
+  const islands = (k) => ({ regions: [[[0, 0], [4, 0], [4, 4], [0, 4]], [[6, 0], [8, 0], [8, 2 * k]]], points: [[2, 2]] });
+  const map = new icc.Map(icc.Domain.polygon(null, islands(1)), icc.Domain.polygon(null, islands(1.5)));
+  assert.ok(map.certified);
+  near(map.apply([[8, 1]]), [8, 1.5]);
+  const square = (a, b) => [[a, a], [b, a], [b, b], [a, b]];
+  const lake = icc.Domain.polygon(square(0, 6), { regions: [square(2, 4)], holes: [square(1, 5)], lines: [[[2, 2], [4, 4]], [[1, 1], [0, 0]]] });
+  assert.deepEqual([lake.info.measure, lake.info.nFaces, lake.info.nJunctions], [24, 3, 4]);
+  assert.deepEqual(lake.features().map(({ kind }) => kind), ['region', 'hole', 'line', 'line']);
+});
+
 // A square of 2 x 2 smaller ones, whose middle is vertex 4.
 const NET = { vertices: [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [2, 2]],
   simplices: [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7] };

@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" />
 import type {
-  Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CurvesInfo, DiscInfo, DomainInfo, FacetReport, FeatureInfo, FieldInfo,
+  Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CoverageInfo, CurvesInfo, DiscInfo, DomainInfo, FacetReport, FeatureInfo, FieldInfo,
   FillOptions, FitInfo, FitOptions, FoliationInfo, FunctionInfo, FunctionOptions, FunctionReport, GradientInfo, GridInfo, GrowReport, ImproveOptions,
   MapInfo, MapOptions, MapReport, MatchInfo, MatchOptions, NearestReport, SamplingInfo, SamplingOptions, ShellingInfo, SolverReport, TreeOptions,
   TreeReport, WeightsInfo, WeightsOptions, WeightsReport, WeightsTimings,
@@ -40,8 +40,10 @@ export interface Handle {
   free(): void;
   [Symbol.dispose](): void;
 }
-/** What lies inside an outline and has a known place. */
+/** What has a known place. Features are numbered in this order. */
 export interface Features {
+  /** Polygons that belong to the shape: more outlines, or islands in holes. */
+  regions?: readonly Points[];
   holes?: readonly Points[]; lines?: readonly Points[]; points?: readonly Points[]; radii?: readonly number[];
 }
 
@@ -61,8 +63,8 @@ export interface Domain extends Handle {
   locate(points: Points): { where: Int32Array; facet: Uint32Array; bary: Float64Array };
 }
 export interface DomainClass {
-  /** A simple polygon, which may be a closed ring, with features inside. */
-  polygon(outline: Points, features?: Features): Domain;
+  /** A simple polygon, which may be a closed ring, with features. The outline may be null if there are regions. */
+  polygon(outline: Points | null, features?: Features): Domain;
   /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
   surface(vertices: Points, facets: Indices, dim?: number): Domain;
   /** A mesh of the inside. `facets` may give the order of the boundary's facets. */
@@ -109,6 +111,51 @@ export interface MatchClass {
   /** landmarks: rows of a point of the source and its partner in the target. */
   new (source: ShapeLike, target: ShapeLike, landmarks?: Points, options?: MatchOptions | null): Match;
   load(bytes: Uint8Array): Match;
+}
+/** A region: a ring, a list of rings whose later ones are holes, or a Polygon or MultiPolygon of GeoJSON. */
+export type RegionShape = Points | readonly Points[] | { readonly type: string; readonly coordinates: any };
+/** Regions by name, or a FeatureCollection of GeoJSON. */
+export type Layer = { readonly [name: string]: RegionShape } | ReadonlyMap<string | number, RegionShape>
+  | { readonly type: 'FeatureCollection'; readonly features: readonly any[] };
+export interface CoverageOptions {
+  /** Of a FeatureCollection: the property that holds the names. Default: the member `id`. */
+  by?: string | null;
+  /** Vertices within this length become one, and a vertex within this length of a side becomes part of it. Two numbers: of
+   *  the source and of the target. Default 0: only where this is exact. */
+  weld?: number | readonly [number, number];
+  /** What happens if only one layer has a border: an error names it, or the regions at it are left out. Default: 'refuse'. */
+  unmatched?: 'refuse' | 'leave_out';
+  /** Names of regions that are left out of both layers. */
+  leftOut?: readonly (string | number)[];
+  /** How the vertices along a border are paired: by shape or by arc length. Default: 'elastic'. */
+  between?: 'elastic' | 'arc';
+}
+/** Something that only one of two layers has. */
+export interface CoverageDifference {
+  readonly kind: 'region' | 'border' | 'island';
+  /** The layer that has it. */
+  readonly side: 'source' | 'target';
+  /** The names of the region, or of the regions on both sides of the border. */
+  readonly regions: (string | number)[];
+  /** A vertex of it, in that layer's coordinates. */
+  readonly place: number[];
+}
+/** Two layers of the same regions, with common vertices. */
+export interface Coverage extends Handle {
+  readonly info: CoverageInfo;
+  readonly dim: number;
+  /** The domains with common vertices, whose features are the rings. */
+  readonly source: Domain;
+  readonly target: Domain;
+  /** The name of each ring's region. */
+  readonly regions: (string | number)[];
+  /** The rings with their vertices in both layers. */
+  readonly rings: { region: string | number; hole: boolean; source: Float64Array; target: Float64Array }[];
+  /** What only one layer has. */
+  readonly differences: CoverageDifference[];
+}
+export interface CoverageClass {
+  new (source: Layer, target: Layer, options?: CoverageOptions): Coverage;
 }
 export interface ChartClass {
   new (domain: ShapeLike, options?: ChartOptions | null): Chart;
@@ -322,6 +369,7 @@ export interface Instance {
   readonly Chart: ChartClass;
   readonly Map: MapClass;
   readonly Match: MatchClass;
+  readonly Coverage: CoverageClass;
   readonly Fit: FitClass;
   readonly Shape: new (regions: readonly Domain[], curves?: { vertices?: Points; segments?: Indices; dim?: number }) => Shape;
   readonly Sampling: {
@@ -393,7 +441,8 @@ export type Away<T> = { free(): void; [Symbol.dispose](): void } & {
 type Statics<C> = { [K in keyof C]: C[K] extends (...args: infer A) => infer R ? (...args: Given<A>) => Promise<Far<R>> : never };
 export type AwayClass<C> = Statics<C> & (C extends new (...args: infer A) => infer T
   ? { create(...args: Given<A>): Promise<Far<T>> } : {});
-type Class = 'Domain' | 'Chart' | 'Map' | 'Match' | 'Fit' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction' | 'Curves';
+type Class = 'Domain' | 'Chart' | 'Map' | 'Match' | 'Coverage' | 'Fit'
+  | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction' | 'Curves';
 type AwayFunctions = { [K in 'boundaryDefects' | 'triangulate' | 'statusName' | 'codeOf']:
   Instance[K] extends (...args: infer A) => infer R ? (...args: A) => Promise<R> : never };
 

@@ -31,12 +31,16 @@ export async function near(): Promise<number> {
   const changed: number = icc.Map.nearest(square, [0, 1, 2], square).report.changed + fit.info.leftOut + fit.map.dim;
   // @ts-expect-error: no such member
   new icc.Fit(square, square, null, { modle: 'spline' });
+  using coverage = new icc.Coverage({ a: square }, new Map([['a', square]]), { weld: [0, 0], unmatched: 'leave_out' });
+  // @ts-expect-error: no such word
+  new icc.Coverage({ a: square }, { a: square }, { unmatched: 'leave out' });
+  const names: (string | number)[] = [...coverage.regions, ...coverage.differences.flatMap(({ regions }) => regions)];
   const weights = new icc.Weights(new icc.Sampling(new icc.Shape([icc.Domain.polygon(square)]), { spacing: 1, fixed: square }),
     square, { method: 'qp', edges: [[0, 1]], lines: [{ from: [0, 0], to: [4, 0] }] });
   const info: WeightsInfo = weights.withMethod('equality').info;
   const seconds: object = [weights.timings, new icc.Chart(square).timings];
   const given: ImageData = map.warp(new ImageData(4, 4), new ImageData(8, 8));
-  if (seconds instanceof icc.IccError) return energy + changed + made + info.nHandles + given.width + kind.length;
+  if (seconds instanceof icc.IccError) return energy + changed + made + names.length + coverage.info.nNodes + info.nHandles + given.width + kind.length;
   return out[0]! + other.dim;
 }
 

@@ -4500,8 +4500,8 @@ extern "C" {
     /// - `target` (out): the same for the target; may be NULL
     pub fn icc_coverage_get_features(
         coverage: *const icc_coverage,
-        source: *const *mut icc_feature,
-        target: *const *mut icc_feature,
+        source: *mut *const icc_feature,
+        target: *mut *const icc_feature,
     ) -> icc_status;
 
     /// Writes the region of each feature to `ids`, which has room for `icc_coverage_info.n_features` numbers.

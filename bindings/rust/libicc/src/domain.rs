@@ -108,8 +108,8 @@ impl Domain {
         })
     }
 
-    /// A simple polygon with holes, lines and points inside. A mesh map takes each of them to the feature of the same
-    /// number, vertex by vertex. Only mesh maps work on such a domain.
+    /// A simple polygon with holes, regions, lines and points. With a region, `outer` may be empty. A mesh map takes each
+    /// feature to the one of the same number, vertex by vertex. Only mesh maps work on such a domain.
     ///
     /// ```
     /// use libicc::{Domain, Env, Feature, Place};

@@ -37,6 +37,7 @@ pub use libicc_sys as sys;
 
 mod binding;
 mod chart;
+mod coverage;
 mod curves;
 mod domain;
 mod env;
@@ -60,6 +61,9 @@ mod weights;
 pub use chart::{
     Chart, ChartInfo, ChartOptions, ChartReport, ChartTimings, Codes, Constraints, DiscInfo, FieldInfo,
     FoliationInfo, FunctionKind, GradientInfo, Images, Method, ShellingInfo, Solver, TreeForm,
+};
+pub use coverage::{
+    Coverage, CoverageInfo, CoverageOptions, CoverageRing, Difference, DifferenceKind, LayerRing, Unmatched,
 };
 pub use domain::{
     boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Feature, FeatureInfo, Place,
