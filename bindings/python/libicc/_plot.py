@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence
 
 import numpy as np
 
@@ -50,13 +50,16 @@ def _outline(places: Floats, triangles: Any) -> Floats:
     """The edges that belong to one triangle only, joined to closed lines with NaN between, (n, 2)."""
     edges = np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]).astype(np.int64)
     whole = {(a, b) for a, b in edges.tolist()}
-    following = {a: b for a, b in sorted(whole) if (b, a) not in whole}
+    following: Dict[int, List[int]] = {}  # several where rings touch
+    for a, b in sorted(whole):
+        if (b, a) not in whole:
+            following.setdefault(a, []).append(b)
     parts = []
-    while following:
-        first = min(following)
-        ring, at = [first], following.pop(first)
-        while at != first:
-            ring.append(at)
-            at = following.pop(at)
-        parts += [places[[*ring, first]], np.full((1, 2), np.nan)]
+    for first in sorted(following):
+        while following[first]:
+            ring, at = [first], following[first].pop()
+            while at != first:
+                ring.append(at)
+                at = following[at].pop()
+            parts += [places[[*ring, first]], np.full((1, 2), np.nan)]
     return np.concatenate(parts[:-1])
