@@ -61,7 +61,7 @@ typedef struct icc_domain_info {
     /** length, area (2-D) or volume (3-D), without holes. It may overflow to HUGE_VAL if
      *  coordinates are near 1e300 */
     double measure;
-    size_t n_features; /**< features inside: icc_domain_create_features() */
+    size_t n_features; /**< features: icc_domain_create_features() */
     /** vertices of the mesh of the inside, including those on the boundary; 0: no mesh */
     size_t n_mesh_vertices;
     size_t n_mesh_simplices; /**< simplices of that mesh */
@@ -786,9 +786,11 @@ typedef struct icc_map_options {
      *  ::ICC_MAP_MESH allows neither a method nor a maximum. */
     const struct icc_chart_options *chart;
     const double *target_maximum; /**< the target's maximum; NULL: chosen by the method */
-    size_t n_ties;                /**< with features: as many as there are features, or 0 */
-    /** with features: paths that join all features and the outer ring to a tree. They lie inside
-     *  both domains and do not cross. NULL: libicc chooses the way that looks least twisted */
+    /** with features: in each part of the domain, one less than it has pieces; or 0. A piece is
+     *  what is connected by lines and rings, see icc_domain_info::n_pieces */
+    size_t n_ties;
+    /** with features: paths that join all pieces of each part to a tree. They lie inside both
+     *  domains and do not cross. NULL: libicc chooses the way that looks least twisted */
     const icc_tie *ties;
 } icc_map_options;
 

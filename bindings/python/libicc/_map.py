@@ -66,9 +66,9 @@ class Map(Saved):
         improve: mesh map: at most this many improvement steps on each level; None: as long as they pay off; 0: none
         method, cells, maximum, ...: options of the charts, see `Chart`. The maximum is the source's
         target_maximum: the target's maximum, (dim,), or None
-        ties: paths that tell on which side features pass one another. As many as there are features, or none. Each is
-            (vertices, source, target): two vertices of the domain, and the bends (n, 2) of a path between them in each
-            domain. Together they join all features and the outer ring
+        ties: paths that tell on which side features pass one another. In each part of the domain one less than it has
+            pieces (`Domain.info`), or none. Each is (vertices, source, target): two vertices of the domain, and the
+            bends (n, 2) of a path between them in each domain. Together they join the pieces of each part
         match: for outlines that do not correspond, which first get common vertices. True: by shape. "arc": by arc
             length. Landmarks (n, 2, 2) or (n, 4): by shape between these. See `Match`
         progress, threads: as for `Domain`

@@ -272,7 +272,7 @@ pub struct icc_domain_info {
     /// length, area (2-D) or volume (3-D), without holes. It may overflow to HUGE_VAL if coordinates are near
     /// 1e300
     pub measure: f64,
-    /// features inside: `icc_domain_create_features()`
+    /// features: `icc_domain_create_features()`
     pub n_features: usize,
     /// vertices of the mesh of the inside, including those on the boundary; 0: no mesh
     pub n_mesh_vertices: usize,
@@ -943,10 +943,11 @@ pub struct icc_map_options {
     pub chart: *const icc_chart_options,
     /// the target's maximum; NULL: chosen by the method
     pub target_maximum: *const f64,
-    /// with features: as many as there are features, or 0
+    /// with features: in each part of the domain, one less than it has pieces; or 0. A piece is what is
+    /// connected by lines and rings, see `icc_domain_info.n_pieces`
     pub n_ties: usize,
-    /// with features: paths that join all features and the outer ring to a tree. They lie inside both domains
-    /// and do not cross. NULL: libicc chooses the way that looks least twisted
+    /// with features: paths that join all pieces of each part to a tree. They lie inside both domains and do
+    /// not cross. NULL: libicc chooses the way that looks least twisted
     pub ties: *const icc_tie,
 }
 sized!(icc_map_options);

@@ -54,7 +54,7 @@ pub struct MapOptions<'a> {
     pub chart: ChartOptions<'a>,
     /// the target's maximum, dim coordinates
     pub target_maximum: Option<&'a [f64]>,
-    /// with features: as many as there are features, or none
+    /// with features: in each part of the domain, one less than it has pieces; or none
     pub ties: &'a [Tie<'a>],
 }
 
