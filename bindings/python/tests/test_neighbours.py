@@ -147,7 +147,6 @@ def test_plot_where_rings_touch(neighbour):
     shape = libicc.Domain([[0, 0], [2, 0], [2, 1], [2, 2], [0, 2], [0, 1]], holes=[hole])
     axes = libicc.Map(shape, shape).plot()
     outline = axes[0].lines[0].get_xydata()
-    assert np.isnan(outline[:, 0]).sum() >= 1
     corners = {tuple(corner) for corner in outline[np.isfinite(outline[:, 0])]}
     assert corners >= {(0, 0), (2, 0), (2, 1), (2, 2), (0, 2), (0, 1), (1, 0.5), (1, 1.5)}
 
