@@ -81,3 +81,13 @@ def test_truncated_bytes_are_refused():
     for end in range(0, len(data), 97):
         with pytest.raises(libicc.Error):
             libicc.Map.from_bytes(data[:end])
+
+
+def test_one_class():
+    """With one piece all maps are of one class, so a target that lines cannot reach straight is reached anyway."""
+    bent = [[0, 4], [2, 4], [6, 7], [6, 1]]
+    source = libicc.Domain([[0, 0], [8, 0], [8, 8], [0, 8], [0, 4]], features=[("line", bent)])
+    target = libicc.Domain([[0, 0], [8, 0], [8, 8], [0, 8], [0, 4]], features=[("line", bent[:2] + bent[:1:-1])])
+    mapping = libicc.Map(source, source).retarget(target)
+    check(mapping, source, target)
+    assert mapping.info.class_kept

@@ -291,6 +291,10 @@ icc_status iccp_isotopy_move(iccp_cuts *cuts, bool *arrived, const iccp_isotopy 
     *arrived = false;
     if (isotopy == NULL)
         return ICC_OK;
+    if (isotopy->n == 0) { /* all maps are of one class */
+        *arrived = true;
+        return iccp_cuts_begin(cuts, 0, &env->memory);
+    }
     icc_status status = iccp_domain_pair_create(&old, source, old_target, env);
     if (status != ICC_OK)
         return forgive(status);
@@ -333,8 +337,8 @@ icc_status iccp_isotopy_is_kept(bool *kept, const iccp_isotopy *isotopy,
     iccp_domain_pair old;
     iccp_sequences moved = {.memory = env->memory};
     iccp_moving_triangulation moving = {.memory = env->memory};
-    *kept = false;
-    if (isotopy == NULL)
+    *kept = isotopy != NULL && isotopy->n == 0;
+    if (isotopy == NULL || isotopy->n == 0)
         return ICC_OK;
     icc_status status = iccp_domain_pair_create(&old, source, old_target, env);
     if (status != ICC_OK)
