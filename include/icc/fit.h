@@ -114,8 +114,9 @@ typedef struct icc_fit icc_fit;
 /** Kinds of constraints: icc_constraint::kind. */
 enum {
     ICC_CONSTRAINT_POINTS = 1, /**< points go to their targets. They may lie anywhere */
-    /** a polyline goes to a polyline: vertex to vertex, and edge to edge linearly. In a domain, or
-     *  along edges of a mesh */
+    /** a polyline goes to a polyline: vertex to vertex, and edge to edge linearly. In a mesh it
+     *  runs along edges. Without a domain and mesh, lines may begin, end and meet at vertices that
+     *  they have in common, and they are exact */
     ICC_CONSTRAINT_LINE = 2,
     /** vertices of the domain, or of the mesh, go to their targets. An edge of the boundary goes
      *  along linearly if both its ends are told */
@@ -146,7 +147,7 @@ typedef struct icc_constraint {
 enum {
     /** as smoothly as possible: of all functions through the points the one that bends the least
      *  inside the region. Affine functions do not bend, so three points give their affine map.
-     *  For maps and pictures. It takes points, and neither a domain nor a mesh */
+     *  For maps and pictures. It takes points and lines, and neither a domain nor a mesh */
     ICC_FIT_SPLINE = 1,
     /** as rigidly as possible: every small piece keeps its shape and size. For characters, and for
      *  meshes whose boundary moves */
@@ -209,8 +210,9 @@ typedef struct icc_fit_info {
 /**
  * Makes a map from what is known of it. Pass a domain, a mesh or neither.
  *
- * *Neither*: the map covers a box around the points. This is the way to use control points on a
- * map or a picture. One point gives a shift, and two points give a similarity.
+ * *Neither*: the map covers a box around the points and lines. This is the way to use control
+ * points on a map or a picture, and rivers or roads that are known on both sides. One point gives a
+ * shift, and two points give a similarity.
  *
  * *A domain*: its outline is free except where constraints tell it. It may have holes, but no lines
  * and points. libicc makes the mesh. This is the way to pose a figure by pins.
@@ -234,17 +236,17 @@ typedef struct icc_fit_info {
  * @return ::ICC_OK, or
  * - ::ICC_ERR_ARGUMENT if two items coincide and have different targets, if a number is not finite
  *   or too small beside the others, or if an option does not suit the model. For control points
- *   also if different exact ones have the same target, or if the targets mirror the points or lie
- *   on a line
+ *   also if different exact ones have the same target, if a part of a line has no length, or if the
+ *   targets mirror the points or lie on a line
  * - ::ICC_ERR_OUTSIDE if a point is not inside the domain
  * - ::ICC_ERR_BOUNDARY if the mesh is not valid
  * - ::ICC_ERR_TOPOLOGY if the mesh has several pieces
  * - ::ICC_ERR_RESOLUTION if points are too close together beside the box, or if the cell is so
  *   small that there would be more than four million triangles
- * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found, or if lines meet one another or the
- *   outline
+ * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found, or if lines meet one another, a point or
+ *   the outline
  * - ::ICC_ERR_UNSUPPORTED if the domain or mesh is not in the plane, if the domain is a mask or has
- *   lines or points, or for lines and vertices without a domain and mesh
+ *   lines or points, or for vertices without a domain and mesh
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
  * Cost: control points some 30 ms up to 100 and 0.6 s for 3,000, several times as much if they

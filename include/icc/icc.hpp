@@ -1064,7 +1064,7 @@ public:
         c.of_c_.tolerance = tolerance.data();
         return c;
     }
-    /** A polyline inside a domain and its target, vertex by vertex. */
+    /** A polyline and its target, vertex by vertex. */
     static constraint line(view<const double> source, view<const double> target)
     {
         constraint c(ICC_CONSTRAINT_LINE, count(source, 2), target);

@@ -48,9 +48,10 @@ static icc_status check_constraint(size_t c, const icc_constraint *given, size_t
                          "icc_constraint.n of constraint %zu is %zu; it must be at least %zu, and "
                          "at most %zu for all constraints together",
                          c, given->n, least, ICCP_MAX_COUNT);
-    if (!has_shape && given->kind != ICC_CONSTRAINT_POINTS)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "constraint %zu: only points can be told without a domain or mesh", c);
+    if (!has_shape && given->kind != ICC_CONSTRAINT_POINTS && given->kind != ICC_CONSTRAINT_LINE)
+        return iccp_fail(
+            err, ICC_ERR_UNSUPPORTED,
+            "constraint %zu: only points and lines can be told without a domain or mesh", c);
     return check_arrays(c, given, err);
 }
 

@@ -2,6 +2,7 @@
 #include "fit/spline_fit.h"
 
 #include "base/error.h"
+#include "fit/lines_check.h"
 #include "fit/spline/spline.h"
 #include "map/given_mesh.h"
 #include "map/nearest/nearest.h"
@@ -14,7 +15,10 @@ typedef struct spline_job {
     iccp_frame frame[2]; /* of source and target */
     double *local[2];    /* 2 told.n: the points and their targets */
     double lower[2], upper[2];
+    size_t n_segments;
+    uint32_t *segments; /* 2 n_segments items: the ends of all parts of lines */
     iccp_spline spline;
+    iccp_edge_set held; /* the edges of the map that must stay */
 } spline_job;
 
 /* ---- coordinates ---- */
@@ -81,6 +85,26 @@ static icc_status localise_tolerances(double **out, const spline_job *j, const i
     return ICC_OK;
 }
 
+/* ---- lines ---- */
+
+/* Lists the parts of lines, and checks that they meet nothing. */
+static icc_status take_lines(spline_job *j, const iccp_env *env, icc_error *err)
+{
+    const iccp_told *told = &j->fit->told;
+    j->segments = iccp_alloc(&env->memory, told->n, 2 * sizeof *j->segments);
+    if (j->segments == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t i = 1; i < told->n; ++i)
+        if (told->joined[i]) {
+            j->segments[2 * j->n_segments] = i - 1;
+            j->segments[2 * j->n_segments++ + 1] = i;
+        }
+    icc_status status = ICC_OK;
+    for (int side = 0; status == ICC_OK && j->n_segments > 0 && side < 2; ++side)
+        status = iccp_lines_check(told, j->local[side], side + 1, env, err);
+    return status;
+}
+
 /* ---- model and repair ---- */
 
 static icc_status make_spline(spline_job *j, const iccp_env *env, icc_error *err)
@@ -92,6 +116,8 @@ static icc_status make_spline(spline_job *j, const iccp_env *env, icc_error *err
                                    .points = j->local[0],
                                    .targets = j->local[1],
                                    .tolerances = tolerances,
+                                   .n_segments = j->n_segments,
+                                   .segments = j->segments,
                                    .lower = fit->options.box != NULL ? j->lower : NULL,
                                    .upper = fit->options.box != NULL ? j->upper : NULL,
                                    .margin = fit->options.margin,
@@ -105,6 +131,9 @@ static icc_status make_spline(spline_job *j, const iccp_env *env, icc_error *err
         status = iccp_fail(err, ICC_ERR_RESOLUTION,
                            "doubles cannot solve this: points are too close together beside the "
                            "box, or tolerances too different");
+    if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE)
+        status = iccp_fail(err, ICC_ERR_RESOLUTION,
+                           "lines are closer to one another or to points than rounding errors");
     iccp_free(&env->memory, tolerances);
     return status;
 }
@@ -125,12 +154,18 @@ static icc_status repair(spline_job *j, const iccp_env *env, icc_error *err)
 {
     iccp_nearest_facts facts = {0};
     icc_fit_info *info = &j->fit->info;
+    const iccp_edge_set *walls = &j->spline.base->lines.walls;
     number_facets(&j->spline.map);
-    icc_status status = iccp_nearest(&j->spline.map, true, &facts, env, NULL);
+    icc_status status = iccp_edge_set_add(&j->held, walls->n, walls->ends);
+    if (walls->n > 0)
+        j->spline.map.held = &j->held;
+    if (status == ICC_OK)
+        status = iccp_nearest(&j->spline.map, true, &facts, env, NULL);
     if (status == ICC_ERR_CERTIFICATE)
         status = iccp_fail(err, status,
                            "no one-to-one map through all points was found: the targets are too "
-                           "close together or too tangled for doubles");
+                           "close together or too tangled for doubles, or lines leave a common "
+                           "point in another order");
     info->repair = facts.repair;
     info->n_folded = facts.n_folded;
     info->n_patches = facts.n_patches;
@@ -217,10 +252,12 @@ static icc_status make_map(spline_job *j, const iccp_env *env, icc_error *err)
 
 icc_status iccp_spline_fit(icc_fit *fit, const iccp_env *env, icc_error *err)
 {
-    spline_job j = {.fit = fit, .spline.memory = env->memory};
+    spline_job j = {.fit = fit, .spline.memory = env->memory, .held.memory = env->memory};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){4, 4, 1}, env);
     icc_status status = localise(&j, env, err);
+    if (status == ICC_OK)
+        status = take_lines(&j, env, err);
     if (status == ICC_OK) {
         status = make_spline(&j, &part[0], err);
         if (status == ICC_OK)
@@ -229,6 +266,8 @@ icc_status iccp_spline_fit(icc_fit *fit, const iccp_env *env, icc_error *err)
             status = make_map(&j, &part[2], err);
         iccp_spline_free(&j.spline);
     }
+    iccp_edge_set_free(&j.held);
+    iccp_free(&env->memory, j.segments);
     iccp_free(&env->memory, j.local[0]);
     iccp_free(&env->memory, j.local[1]);
     return status;

@@ -5,15 +5,16 @@
 
 #include "base/minmax.h"
 #include "base/random.h"
+#include "mesh/constrain.h"
 #include "mesh/delaunay.h"
 #include "mesh/triangulate.h"
 
 #include <math.h>
 #include <string.h>
 
-/* The width of cells grows by these shares of the distance: from the points, and from the core. The
- * prototype's values (fit of control points with 6 to 3,000 points). */
-static const double SLOPE = 0.5, OUTER_SLOPE = 0.35;
+/* The width of cells grows by this share of the distance from the core. The prototype's value, as
+ * ICCP_BOX_SLOPE. */
+static const double OUTER_SLOPE = 0.35;
 
 /* Least distance of a corner or centre from a point, in widths of its leaf. */
 static const double CLEARANCE = 0.45;
@@ -193,7 +194,7 @@ static double most_width(const builder *b, const level *l, const double centre[2
 static bool forbids(const iccp_graded_box *box, uint32_t i, const double centre[2], double width,
                     double slack)
 {
-    const double reach = 0.5 * width + (width - box->width[i]) / SLOPE + slack;
+    const double reach = 0.5 * width + (width - box->width[i]) / ICCP_BOX_SLOPE + slack;
     const double *p = box->points + 2 * (size_t)i;
     const double dx = p[0] - centre[0], dy = p[1] - centre[1];
     return width > box->width[i] && dx * dx + dy * dy < reach * reach;
@@ -383,7 +384,21 @@ static icc_status copy_triangles(iccp_box_mesh *mesh, const iccp_trimesh *t, uin
     return ICC_OK;
 }
 
-icc_status iccp_box_mesh_triangulate(iccp_box_mesh *mesh, const iccp_env *env)
+/* Forces walls into a triangulation. */
+static icc_status force_walls(iccp_trimesh *t, const iccp_edge_set *edges, const iccp_env *env)
+{
+    iccp_walls walls = {0};
+    icc_status status = iccp_walls_create(&walls, t->n_points, edges->n, edges->ends, &env->memory);
+    t->walls = &walls;
+    if (status == ICC_OK)
+        status = iccp_constrain(t, env, NULL);
+    t->walls = NULL;
+    iccp_walls_free(&walls, &env->memory);
+    return status;
+}
+
+icc_status iccp_box_mesh_triangulate(iccp_box_mesh *mesh, const iccp_edge_set *walls,
+                                     const iccp_env *env)
 {
     const size_t most = 2 * mesh->n_vertices;
     iccp_trimesh t = {.points = mesh->points, .n_points = (uint32_t)mesh->n_vertices};
@@ -392,6 +407,8 @@ icc_status iccp_box_mesh_triangulate(iccp_box_mesh *mesh, const iccp_env *env)
     icc_status status = ICC_ERR_MEMORY;
     if (number != NULL && t.corners != NULL)
         status = iccp_delaunay(&t, env, NULL);
+    if (status == ICC_OK && walls != NULL && walls->n > 0)
+        status = force_walls(&t, walls, env);
     if (status == ICC_OK)
         status = copy_triangles(mesh, &t, number);
     iccp_free(&env->memory, t.corners);
@@ -413,7 +430,7 @@ icc_status iccp_graded_box_mesh(iccp_box_mesh *mesh, const iccp_graded_box *box,
         status = copy_vertices(mesh, &b);
     iccp_free(&env->memory, b.places);
     iccp_free(&env->memory, b.table);
-    return status == ICC_OK ? iccp_box_mesh_triangulate(mesh, &parts[1]) : status;
+    return status == ICC_OK ? iccp_box_mesh_triangulate(mesh, box->walls, &parts[1]) : status;
 }
 
 void iccp_box_mesh_free(iccp_box_mesh *mesh)

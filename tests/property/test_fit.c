@@ -233,6 +233,123 @@ START_TEST(a_spline_comes_back)
 }
 END_TEST
 
+/* ---- lines without a domain ---- */
+
+/* Checks that the parts of a line go along linearly. */
+static void check_line(const icc_fit *fit, size_t n, const double *from, const double *to)
+{
+    enum { PARTS = 64 };
+    for (size_t i = 0; i + 1 < n; ++i)
+        for (int k = 0; k <= PARTS; ++k) {
+            const double t = (double)k / PARTS;
+            double p[2], image[2];
+            for (size_t d = 0; d < 2; ++d)
+                p[d] = (1 - t) * from[2 * i + d] + t * from[2 * i + 2 + d];
+            ck_assert_int_eq(icc_map_apply(icc_fit_map(fit), 1, p, image, NULL, NULL, NULL),
+                             ICC_OK);
+            for (size_t d = 0; d < 2; ++d)
+                ck_assert_double_eq_tol(image[d], (1 - t) * to[2 * i + d] + t * to[2 * i + 2 + d],
+                                        1e-13);
+        }
+}
+
+static icc_constraint line_of(size_t n, const double *from, const double *to)
+{
+    icc_constraint line = points_of(n, from, to);
+    line.kind = ICC_CONSTRAINT_LINE;
+    return line;
+}
+
+/* A river with a tributary and a ring among points. Then the river goes the other way round its
+ * bend, and points change places beside the tributary, so that the spline folds. */
+START_TEST(lines_go_along_linearly)
+{
+    const double river[8] = {0.1, 0.5, 0.35, 0.6, 0.6, 0.45, 0.95, 0.55};
+    const double brook[6] = {0.6, 0.45, 0.55, 0.3, 0.62, 0.1};
+    const double ring[8] = {0.2, 0.75, 0.3, 0.75, 0.25, 0.85, 0.2, 0.75};
+    const double points[8] = {0.05, 0.05, 0.95, 0.95, 0.45, 0.2, 0.75, 0.2};
+    double to[26], all[26], images[8];
+    memcpy(all, river, sizeof river);
+    memcpy(all + 8, brook, sizeof brook);
+    memcpy(all + 14, ring, sizeof ring);
+    memcpy(all + 22, points, 4 * sizeof *points);
+    for (size_t i = 0; i < 26; ++i)
+        to[i] = 2 * all[i] + 0.05 * sin(7 * all[i ^ 1]);
+    const icc_constraint told[4] = {line_of(4, all, to), line_of(3, all + 8, to + 8),
+                                    line_of(4, all + 14, to + 14), points_of(2, all + 22, to + 22)};
+    icc_fit *fit, *moved;
+    icc_error err = {.size = sizeof err};
+    const icc_status status = icc_fit_create(&fit, NULL, NULL, 4, told, NULL, NULL, &err);
+    ck_assert_msg(status == ICC_OK, "%s", err.message);
+    check_exact(fit, 13, all, to);
+    ck_assert_int_eq(info_of(fit).repair, ICC_REPAIR_NONE);
+    check_line(fit, 4, all, to);
+    check_line(fit, 3, all + 8, to + 8);
+    check_line(fit, 4, all + 14, to + 14);
+    double left_out[26];
+    ck_assert_int_eq(icc_fit_get_residuals(fit, NULL, left_out), ICC_OK);
+    for (size_t i = 0; i < 26; ++i)
+        ck_assert(isnan(left_out[i]) == (i < 22));
+    /* the bend of the river and the ring's tip go to where the spline folds */
+    to[3] -= 0.5;
+    to[19] += 0.4;
+    to[10] -= 0.3;
+    ck_assert_int_eq(icc_fit_move(&moved, fit, to, NULL, NULL), ICC_OK);
+    ck_assert_int_ne(info_of(moved).repair, ICC_REPAIR_NONE);
+    check_exact(moved, 13, all, to);
+    check_line(moved, 4, all, to);
+    check_line(moved, 3, all + 8, to + 8);
+    check_line(moved, 4, all + 14, to + 14);
+    ck_assert_int_eq(icc_map_apply(icc_fit_map(moved), 4, points, images, NULL, NULL, NULL),
+                     ICC_OK);
+    icc_fit_free(moved);
+    icc_fit_free(fit);
+}
+END_TEST
+
+/* Random lines that stay apart, in a warp that folds: each part stays straight, whatever was
+ * repaired. */
+START_TEST(lines_survive_folds)
+{
+    enum { LINES = 4, VERTICES = 4 };
+    random_source r = {7};
+    size_t n_repaired = 0;
+    for (int turn = 0; turn < 12; ++turn) {
+        double from[LINES][2 * VERTICES], to[LINES][2 * VERTICES], p[40], q[40];
+        icc_constraint told[LINES + 1];
+        for (size_t k = 0; k < LINES; ++k) {
+            for (size_t i = 0; i < VERTICES; ++i) {
+                from[k][2 * i] = 0.3 * (double)i + 0.1 * random_unit(&r);
+                from[k][2 * i + 1] = 0.3 * (double)k + 0.1 * random_unit(&r);
+                to[k][2 * i] = 0.3 * (double)i + 0.1 * random_unit(&r);
+                to[k][2 * i + 1] = 0.3 * (double)k + 0.2 * random_unit(&r);
+            }
+            told[k] = line_of(VERTICES, from[k], to[k]);
+        }
+        /* between lines, so that none has to cross one */
+        for (size_t i = 0; i < 20; ++i) {
+            const double row = 0.3 * (double)(i % 3);
+            p[2 * i] = 0.9 * random_unit(&r);
+            p[2 * i + 1] = row + 0.15 + 0.1 * random_unit(&r);
+            q[2 * i] = p[2 * i] + 0.1 * random_unit(&r);
+            q[2 * i + 1] = row + 0.22 + 0.07 * random_unit(&r);
+        }
+        told[LINES] = points_of(20, p, q);
+        icc_fit *fit;
+        icc_error err = {.size = sizeof err};
+        const icc_status status =
+            icc_fit_create(&fit, NULL, NULL, LINES + 1, told, NULL, NULL, &err);
+        ck_assert_msg(status == ICC_OK, "%d: %s", turn, err.message);
+        n_repaired += info_of(fit).repair != ICC_REPAIR_NONE;
+        check_exact(fit, 20, p, q);
+        for (size_t k = 0; k < LINES; ++k)
+            check_line(fit, VERTICES, from[k], to[k]);
+        icc_fit_free(fit);
+    }
+    ck_assert_uint_gt(n_repaired, 6);
+}
+END_TEST
+
 /* ---- figures and meshes ---- */
 
 static icc_domain *bar(void)
@@ -521,7 +638,7 @@ START_TEST(wrong_requests_are_refused)
                             .vertices = &vertex,
                             .target = p};
     check_refused(ICC_ERR_ARGUMENT, domain, NULL, &told, NULL, "vertex 99");
-    check_refused(ICC_ERR_UNSUPPORTED, NULL, NULL, &told, NULL, "only points");
+    check_refused(ICC_ERR_UNSUPPORTED, NULL, NULL, &told, NULL, "only points and lines");
     icc_domain_free(domain);
 }
 END_TEST
@@ -565,6 +682,34 @@ START_TEST(lines_that_meet_are_refused)
 }
 END_TEST
 
+/* The same without a domain, before and after the map, and with points. */
+START_TEST(lines_that_meet_in_a_frame_are_refused)
+{
+    const double cross[8] = {0, 0, 1, 1, 0, 1, 1, 0}, apart[8] = {0, 0, 1, 0, 0, 1, 1, 1};
+    const double middle[2] = {0.5, 0}, flat[8] = {0, 0, 1, 0, 0.5, 0, 2, 1};
+    icc_constraint told[2] = {line_of(4, cross, apart), points_of(1, middle, middle)};
+    check_refused(
+        ICC_ERR_CERTIFICATE, NULL, NULL, told, NULL,
+        "source: the line from point 2 to point 3 meets the line from point 0 to point 1");
+    told[0] = line_of(4, apart, cross);
+    check_refused(
+        ICC_ERR_CERTIFICATE, NULL, NULL, told, NULL,
+        "target: the line from point 2 to point 3 meets the line from point 0 to point 1");
+    told[0] = line_of(4, flat, flat);
+    check_refused(ICC_ERR_CERTIFICATE, NULL, NULL, told, NULL, "meets the line");
+    told[0] = line_of(2, (double[]){0, 1, 0, 1}, apart);
+    check_refused(ICC_ERR_ARGUMENT, NULL, NULL, told, NULL,
+                  "the line from point 0 to point 1 has no length");
+    told[0] = line_of(4, apart, apart);
+    icc_fit *fit;
+    icc_error err = {.size = sizeof err};
+    ck_assert_int_eq(icc_fit_create(&fit, NULL, NULL, 2, told, NULL, NULL, &err),
+                     ICC_ERR_CERTIFICATE);
+    ck_assert_msg(strstr(err.message, "from point 0 to point 1 meets point 4") != NULL, "%s",
+                  err.message);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("fit");
@@ -584,6 +729,9 @@ int main(void)
     tcase_add_test(tc, wrong_requests_are_refused);
     tcase_add_test(tc, wrong_meshes_are_refused);
     tcase_add_test(tc, lines_that_meet_are_refused);
+    tcase_add_test(tc, lines_go_along_linearly);
+    tcase_add_test(tc, lines_survive_folds);
+    tcase_add_test(tc, lines_that_meet_in_a_frame_are_refused);
     suite_add_tcase(suite, tc);
     return suite_run(suite);
 }

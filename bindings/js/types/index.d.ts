@@ -218,7 +218,7 @@ export interface MapClass {
 export interface FitInput extends FitOptions {
   /** A mesh of triangles, in place of a domain. It is kept as it is. */
   mesh?: { readonly vertices: Points; readonly simplices: Indices } | null;
-  /** In a domain: polylines, each before and after. */
+  /** Polylines, each before and after. Without a domain and mesh they may share vertices. */
   lines?: readonly (readonly [Points, Points])[];
   /** Vertices of the domain or the mesh, and where they go. */
   vertices?: Indices | null;

@@ -216,7 +216,8 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
             `sliding`. It may have holes but no lines and points. None: a box around the points
         mesh: (vertices, cells), (n, 2) and (m, 3) triangles or (m, 4) convex quadrilaterals, or a mesh of meshio. It is
             kept as it is and may have holes. Quadrilaterals stay convex. It comes instead of `domain`
-        lines: in a domain: pairs (before, after) of polylines, (k, 2) each. Vertex goes to vertex
+        lines: pairs (before, after) of polylines, (k, 2) each. Vertex goes to vertex, and each part along linearly. In
+            a mesh they run along edges. Without a domain and mesh they may share vertices
         vertices: (numbers, places): vertices of the domain or the mesh, (k,), and where they go, (k, 2). An edge of the
             boundary goes along if both its ends are told
         sliding: vertices that may move along a straight line only: their numbers (k,), or a pair (numbers, directions)
@@ -224,9 +225,9 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
             there
         tolerance: spline: how far points may be off their targets, in units of the target: a number or (n,). None and
             0: not at all
-        model: "spline" bends as little as possible. It takes points alone and is for maps and pictures. "elastic" keeps
-            the shape and size of every small piece and is for characters and moving meshes. None: spline without a
-            domain and mesh, else elastic
+        model: "spline" bends as little as possible. It takes points and lines and is for maps and pictures. "elastic"
+            keeps the shape and size of every small piece and is for characters and moving meshes. None: spline without
+            a domain and mesh, else elastic
         box: without a domain and mesh: (lower corner, upper corner) of what the map covers at least. None: the points
         margin: without a domain and mesh: how far the map reaches beyond the box, as a share of its longest side. None:
             chosen by leaving each point out in turn

@@ -67,6 +67,22 @@ def test_points_that_were_measured(known):
     assert more.info.residual > loose.info.residual
 
 
+def test_lines_among_points(known):
+    river = np.array([[5, 48], [30, 58], [61, 41], [97, 52.0]])
+    brook = np.array([[61, 41], [58, 3.0]])
+    points = np.array([[10, 90], [90, 85], [15, 10], [88, 12.0]])
+    mapping = libicc.fit(points, curved(points), lines=[(river, curved(river)), (brook, curved(brook))])
+    assert mapping.certified
+    for line in (river, brook):
+        middle = (line[1:] + line[:-1]) / 2
+        ends = curved(line)
+        assert np.allclose(mapping(middle), (ends[1:] + ends[:-1]) / 2, rtol=0, atol=1e-11)
+        assert np.array_equal(mapping(line), ends)
+    assert np.isnan(mapping.left_out[4:]).all() and np.isfinite(mapping.left_out[:4]).all()
+    with pytest.raises(libicc.CertificateError, match="meets the line from point 0 to point 1"):
+        libicc.fit(lines=[([[0, 0], [1, 1]], [[0, 0], [1, 1]]), ([[0, 1], [1, 0]], [[0, 1], [1, 0]])])
+
+
 def test_a_figure_with_pins():
     mapping = libicc.fit(PINS, UP, FIGURE)
     assert mapping.certified and mapping.info.model == "elastic" and mapping.info.n_off == 0

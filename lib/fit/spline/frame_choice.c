@@ -96,7 +96,7 @@ static icc_status take_sample(choice *c, const iccp_env *env)
     for (size_t i = 0; i < q->n; ++i)
         if (iccp_random_unit(&state) * (double)(q->n - i) < (double)(most - k))
             take_point(c, k++, i);
-    return iccp_frame_region_create(&c->region, k, c->points, q->lower, q->upper, env);
+    return iccp_frame_region_create(&c->region, k, c->points, NULL, q->lower, q->upper, env);
 }
 
 /* Adds up the squared residuals left out, by the shares of weighted points. */

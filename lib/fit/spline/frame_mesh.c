@@ -39,7 +39,7 @@ static icc_status find_spacings(iccp_frame_region *r, const iccp_env *env)
     if (mesh.points == NULL)
         return ICC_ERR_MEMORY;
     add_corners(r, mesh.points);
-    const icc_status status = iccp_box_mesh_triangulate(&mesh, env);
+    const icc_status status = iccp_box_mesh_triangulate(&mesh, r->walls, env);
     if (status != ICC_OK)
         return status;
     for (size_t i = 0; i < r->n; ++i)
@@ -47,7 +47,8 @@ static icc_status find_spacings(iccp_frame_region *r, const iccp_env *env)
     for (size_t c = 0; c < 3 * mesh.n_triangles; ++c) {
         const uint32_t a = mesh.triangles[c], b = mesh.triangles[c % 3 == 2 ? c - 2 : c + 1];
         const double d =
-            iccp_vec_distance(2, mesh.points + 2 * (size_t)a, mesh.points + 2 * (size_t)b);
+            iccp_vec_distance(2, mesh.points + 2 * (size_t)a, mesh.points + 2 * (size_t)b) *
+            (iccp_edge_set_has(r->walls, a, b) ? 2 : 1);
         if (a < r->n)
             r->spacing[a] = iccp_min(r->spacing[a], d);
         if (b < r->n)
@@ -58,9 +59,10 @@ static icc_status find_spacings(iccp_frame_region *r, const iccp_env *env)
 }
 
 icc_status iccp_frame_region_create(iccp_frame_region *region, size_t n, const double *points,
-                                    const double *lower, const double *upper, const iccp_env *env)
+                                    const iccp_edge_set *walls, const double *lower,
+                                    const double *upper, const iccp_env *env)
 {
-    *region = (iccp_frame_region){.n = n, .points = points};
+    *region = (iccp_frame_region){.n = n, .points = points, .walls = walls};
     find_box(region, lower, upper);
     region->spacing = iccp_alloc(&env->memory, n, sizeof *region->spacing);
     const icc_status status = region->spacing != NULL ? find_spacings(region, env) : ICC_ERR_MEMORY;
@@ -89,7 +91,8 @@ icc_status iccp_frame_mesh(iccp_box_mesh *mesh, const iccp_frame_region *region,
                                  .n = region->n,
                                  .points = region->points,
                                  .width = width,
-                                 .largest = largest};
+                                 .largest = largest,
+                                 .walls = region->walls};
     const icc_status status = iccp_graded_box_mesh(mesh, &box, env);
     iccp_free(&env->memory, width);
     return status;

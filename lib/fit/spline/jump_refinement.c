@@ -28,6 +28,7 @@ typedef struct builder {
     double *u, *gradient; /* of all vertices */
     edge *edges;
     size_t n_edges;
+    const iccp_edge_set *walls;
 } builder;
 
 /* Adds a triangle's area times its gradient to its three vertices. */
@@ -125,6 +126,8 @@ static icc_status list_edges(builder *b, double tolerance)
         if (m->twins[c] != ICCP_NO_NEIGHBOUR && m->twins[c] < c)
             continue;
         const uint32_t from = m->triangles[iccp_after(c)], to = m->triangles[iccp_before(c)];
+        if (iccp_edge_set_has(b->walls, from, to))
+            continue;
         double jump[2];
         find_jump(m->points, b->gradient, from, to, jump);
         const double square = iccp_vec_dot(2, jump, jump);
@@ -170,7 +173,7 @@ static icc_status refine_once(builder *b, double tolerance, const iccp_env *env)
         iccp_free(b->memory, b->mesh->triangles);
         iccp_free(b->memory, b->mesh->twins);
         b->mesh->triangles = b->mesh->twins = NULL;
-        status = iccp_box_mesh_triangulate(b->mesh, env);
+        status = iccp_box_mesh_triangulate(b->mesh, b->walls, env);
     }
     iccp_free(b->memory, b->edges);
     b->edges = NULL;
@@ -199,9 +202,11 @@ static icc_status begin(builder *b, const iccp_box_mesh *solved, const double *u
 }
 
 icc_status iccp_jump_refine(iccp_box_mesh *fine, double **fine_u, const iccp_box_mesh *solved,
-                            const double *u, double tolerance, size_t most, const iccp_env *env)
+                            const double *u, const iccp_edge_set *walls, double tolerance,
+                            size_t most, const iccp_env *env)
 {
-    builder b = {.memory = &env->memory, .mesh = fine, .room = most * solved->n_vertices};
+    builder b = {
+        .memory = &env->memory, .mesh = fine, .room = most * solved->n_vertices, .walls = walls};
     *fine = (iccp_box_mesh){.memory = env->memory};
     icc_status status = begin(&b, solved, u);
     for (int k = 0; status == ICC_OK && k < ROUNDS; ++k) {

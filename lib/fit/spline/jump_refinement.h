@@ -8,10 +8,12 @@
 
 /* Adds vertices at the middles of edges at which the solution `u` (2 coordinates per vertex) is off
  * by more than `tolerance`. There are at most `most` vertices for each vertex of `solved`. The
- * vertices of `solved` stay the first ones. *fine_u becomes the solution at all vertices: at new
+ * vertices of `solved` stay the first ones, and `walls` (NULL: none), where the solution is linear,
+ * stay edges. *fine_u becomes the solution at all vertices: at new
  * ones it follows cubics along their edges. The caller frees it with the memory of `env`. On
  * failure nothing stays allocated. */
 icc_status iccp_jump_refine(iccp_box_mesh *fine, double **fine_u, const iccp_box_mesh *solved,
-                            const double *u, double tolerance, size_t most, const iccp_env *env);
+                            const double *u, const iccp_edge_set *walls, double tolerance,
+                            size_t most, const iccp_env *env);
 
 #endif

@@ -71,10 +71,7 @@ static icc_status make_room(iccp_spline *s, size_t n)
 {
     s->n = n;
     s->left_out = iccp_alloc(&s->memory, n, 2 * sizeof *s->left_out);
-    s->left_out_own = iccp_alloc(&s->memory, n, 2 * sizeof *s->left_out_own);
-    s->told = iccp_alloc(&s->memory, n, 2 * sizeof *s->told);
-    return s->left_out != NULL && s->left_out_own != NULL && s->told != NULL ? ICC_OK
-                                                                             : ICC_ERR_MEMORY;
+    return s->left_out != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 /* ---- images and residuals ---- */
@@ -134,9 +131,13 @@ static void add_trend(iccp_spline *s)
 }
 
 /* Computes the residuals left out of the given points. The own target of a merged point may differ
- * from the common one. */
+ * from the common one. Points on segments are never left out alone, so theirs are not known. */
 static void find_left_out(iccp_spline *s, const double *targets)
 {
+    const iccp_edge_set *walls = &s->base->lines.walls;
+    for (size_t k = 0; k < 2 * walls->n; ++k)
+        for (size_t c = 0; c < 2; ++c)
+            s->left_out_own[2 * (size_t)walls->ends[k] + c] = NAN;
     for (size_t i = 0; i < s->n; ++i) {
         const size_t k = s->control.number[i];
         for (size_t c = 0; c < 2; ++c) {
@@ -180,7 +181,7 @@ static icc_status fill_map(iccp_spline *s, const iccp_box_mesh *mesh, const doub
 /* Sets *tolerance to a share of the median length of residuals left out, or 0 if none is known. */
 static icc_status find_tolerance(const iccp_spline *s, double *tolerance, const iccp_env *env)
 {
-    const size_t n = s->control.n;
+    const size_t n = s->n_given;
     double *length = iccp_alloc(&env->memory, n, sizeof *length);
     size_t count = 0;
     *tolerance = 0;
@@ -207,7 +208,8 @@ static icc_status make_map(iccp_spline *s, const double *u, const iccp_env *env)
         return fill_map(s, &s->base->solved, u);
     iccp_box_mesh fine;
     double *fine_u;
-    status = iccp_jump_refine(&fine, &fine_u, &s->base->solved, u, tolerance, MOST_REFINED, env);
+    status = iccp_jump_refine(&fine, &fine_u, &s->base->solved, u, &s->base->lines.walls, tolerance,
+                              MOST_REFINED, env);
     if (status != ICC_OK)
         return status;
     status = fill_map(s, &fine, fine_u);
@@ -262,11 +264,11 @@ static icc_status begin(iccp_spline *s, const iccp_spline_task *task, const iccp
 {
     icc_status status = iccp_distinct_points_create(&s->control, task->n, task->points,
                                                     task->targets, task->tolerances, env, err);
+    s->n_given = s->control.n;
     if (status == ICC_OK)
         status = make_room(s, task->n);
     if (status == ICC_OK)
-        status =
-            iccp_trend_fit(&s->trend, s->control.n, s->control.points, s->control.targets, err);
+        status = iccp_trend_fit(&s->trend, s->n_given, s->control.points, s->control.targets, err);
     s->affine_residual = s->trend.residual;
     return status;
 }
@@ -276,7 +278,7 @@ static void prepare(iccp_spline *s, const iccp_spline_task *task, double size, d
 {
     find_metric(&s->trend, size, s->base->metric);
     const bool has_weights = find_shares(s->control.n, s->control.tolerances, share) &&
-                             !(task->smoothing < 0) && s->control.n >= 3;
+                             !(task->smoothing < 0) && s->n_given >= 3;
     if (!has_weights)
         memset(share, 0, s->control.n * sizeof *share);
     s->base->smoothing = has_weights ? task->smoothing : 0;
@@ -286,7 +288,7 @@ static iccp_frame_question question_of(const iccp_spline *s, const iccp_spline_t
                                        const double *share)
 {
     const double *m = s->base->metric;
-    return (iccp_frame_question){.n = s->control.n,
+    return (iccp_frame_question){.n = s->n_given,
                                  .points = s->control.points,
                                  .values = s->told,
                                  .share = share,
@@ -310,6 +312,7 @@ void iccp_spline_base_release(iccp_spline_base *base)
         return;
     const iccp_memory memory = base->memory;
     iccp_box_mesh_free(&base->solved);
+    iccp_told_lines_free(&base->lines);
     iccp_spline_system_free(&base->system);
     iccp_free(&memory, base);
 }
@@ -322,6 +325,7 @@ static icc_status begin_base(iccp_spline *s)
     if (base == NULL)
         return ICC_ERR_MEMORY;
     base->memory = base->solved.memory = base->system.memory = s->memory;
+    base->lines.memory = base->lines.walls.memory = s->memory;
     base->system.energy.memory = base->system.factor.memory = s->memory;
     atomic_init(&base->references, 1);
     return ICC_OK;
@@ -333,7 +337,7 @@ static icc_status make_frame(iccp_spline *s, const iccp_spline_task *task, doubl
 {
     iccp_env parts[3];
     iccp_split(parts, 3, (const double[]){2, 1, 3}, env);
-    const bool bends = s->control.n >= 3;
+    const bool bends = s->n_given >= 3;
     prepare(s, task, region->size, share);
     s->base->margin = task->margin > 0 ? iccp_max(task->margin, LEAST_MARGIN)
                       : bends          ? 0
@@ -346,15 +350,55 @@ static icc_status make_frame(iccp_spline *s, const iccp_spline_task *task, doubl
     return status == ICC_OK && bends ? make_system(s, share, &parts[2]) : status;
 }
 
-/* Makes a base for the points. */
+/* Divides the segments for a new base. */
+static icc_status divide_segments(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env)
+{
+    iccp_frame_region region;
+    uint32_t *segments = iccp_alloc(&env->memory, task->n_segments, 2 * sizeof *segments);
+    icc_status status = segments != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t k = 0; status == ICC_OK && k < 2 * task->n_segments; ++k)
+        segments[k] = s->control.number[task->segments[k]];
+    if (status == ICC_OK)
+        status = iccp_frame_region_create(&region, s->n_given, s->control.points, NULL, task->lower,
+                                          task->upper, env);
+    if (status == ICC_OK) {
+        status = iccp_told_lines_create(&s->base->lines, &region, ACROSS, task->n_segments,
+                                        segments, env);
+        iccp_free(&env->memory, region.spacing);
+    }
+    iccp_free(&env->memory, segments);
+    return status;
+}
+
+/* Tells the vertices inside segments, and makes room for what is told. */
+static icc_status tell_lines(iccp_spline *s)
+{
+    const iccp_told_lines *lines = &s->base->lines;
+    iccp_distinct_points *c = &s->control;
+    const size_t n = c->n, all = n + lines->n;
+    s->left_out_own = iccp_alloc(&s->memory, all, 2 * sizeof *s->left_out_own);
+    s->told = iccp_alloc(&s->memory, all, 2 * sizeof *s->told);
+    if (s->left_out_own == NULL || s->told == NULL ||
+        !iccp_enlarge(&c->memory, &c->points, 2 * n, 2 * all, sizeof *c->points) ||
+        !iccp_enlarge(&c->memory, &c->targets, 2 * n, 2 * all, sizeof *c->targets) ||
+        !iccp_enlarge(&c->memory, &c->tolerances, n, all, sizeof *c->tolerances))
+        return ICC_ERR_MEMORY;
+    iccp_told_lines_place(lines, c->points, c->points + 2 * n);
+    iccp_told_lines_place(lines, c->targets, c->targets + 2 * n);
+    for (; c->n < all; ++c->n)
+        c->tolerances[c->n] = 0;
+    return ICC_OK;
+}
+
+/* Fills in a base that has its lines. */
 static icc_status make_base(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env)
 {
     iccp_frame_region region;
     double *share = iccp_alloc(&env->memory, s->control.n, sizeof *share);
-    icc_status status = share != NULL ? begin_base(s) : ICC_ERR_MEMORY;
+    icc_status status = share != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_frame_region_create(&region, s->control.n, s->control.points, task->lower,
-                                          task->upper, env);
+        status = iccp_frame_region_create(&region, s->control.n, s->control.points,
+                                          &s->base->lines.walls, task->lower, task->upper, env);
     if (status == ICC_OK) {
         status = make_frame(s, task, share, &region, env);
         iccp_free(&env->memory, region.spacing);
@@ -371,10 +415,17 @@ static icc_status create(iccp_spline *s, const iccp_spline_task *task, const icc
     icc_status status = begin(s, task, env, err);
     if (status != ICC_OK)
         return status;
-    find_rest(s);
     if (task->base != NULL)
         s->base = iccp_spline_base_retain(task->base);
     else
+        status = begin_base(s);
+    if (status == ICC_OK && task->base == NULL && task->n_segments > 0)
+        status = divide_segments(s, task, env);
+    if (status == ICC_OK)
+        status = tell_lines(s);
+    if (status == ICC_OK)
+        find_rest(s);
+    if (status == ICC_OK && task->base == NULL)
         status = make_base(s, task, &parts[0]);
     return status == ICC_OK ? solve_and_map(s, task->targets, &parts[1]) : status;
 }

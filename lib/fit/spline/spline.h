@@ -7,6 +7,7 @@
  * - told: vertices whose values are given, exactly or with a weight (spline_system.h).
  * - left out: how far a target is from where the other points would take its point.
  * - share, smoothing: a point's weight is its share, divided by the smoothing.
+ * - wall: an edge that the mesh must have, a part of a told line (told_lines.h).
  *
  * Ways: distinct_points.h merges points, frame_choice.h chooses margin and smoothing, frame_mesh.h
  * makes the mesh, bending.h the matrix, spline_system.h solves and leaves out, jump_refinement.h
@@ -19,6 +20,7 @@
 
 #include "fit/spline/distinct_points.h"
 #include "fit/spline/spline_system.h"
+#include "fit/spline/told_lines.h"
 #include "map/compatible/plmap.h"
 
 #include <stdatomic.h>
@@ -36,6 +38,7 @@ typedef struct iccp_spline_base {
     double smoothing;
     double metric[4];     /* see iccp_bending_mesh: that of the targets for which it was made */
     iccp_box_mesh solved; /* the mesh of the system. Its vertices are the map's first */
+    iccp_told_lines lines;
     iccp_spline_system system; /* without told vertices if nothing can bend */
 } iccp_spline_base;
 
@@ -50,26 +53,30 @@ typedef struct iccp_spline_task {
     size_t n;                       /* at least 1 */
     const double *points, *targets; /* 2 n each */
     const double *tolerances;       /* n: how far a point may be off; 0: exact. NULL: all exact */
-    const double *lower, *upper;    /* the box to cover at least; NULL: the points' bounding box */
+    size_t n_segments;
+    const uint32_t *segments;    /* 2 n_segments points: they go along linearly. Their ends are
+                                       exact */
+    const double *lower, *upper; /* the box to cover at least; NULL: the points' bounding box */
     double margin;    /* how far the frame reaches, in longest sides of the box; 0: chosen */
     double smoothing; /* as in icc_fit_options; see iccp_spline_base::smoothing */
-    /* of a spline of the same points, tolerances and box: then nothing is chosen or factorised
-     * anew. NULL: none */
+    /* of a spline of the same points, segments, tolerances and box: then nothing is chosen or
+     * factorised anew. NULL: none */
     iccp_spline_base *base;
 } iccp_spline_task;
 
 typedef struct iccp_spline {
     iccp_memory memory;
     size_t n; /* points as given */
-    /* The different points. They are the map's first vertices, so point i is vertex
-     * control.number[i] */
+    /* The different points, and then the vertices inside segments. They are the map's first
+     * vertices, so point i is vertex control.number[i] */
     iccp_distinct_points control;
+    size_t n_given; /* the different points alone */
     /* Images are local in the target. They may fold.
      * Exact points are ICCP_ON_POINT and the boundary is ICCP_ALONG. Facets and places along them
      * are 0: the caller sets them. */
     iccp_plmap map;
     double *left_out; /* 2 n: where the other points would take each point, minus its target. NaN
-                          if they do not determine it */
+                          if they do not determine it, or if the point is on a segment */
     double left_out_residual, affine_residual; /* root mean square; NaN if not known */
     iccp_trend trend;                          /* the affine fit */
     iccp_spline_base *base;                    /* one reference of it is the spline's */
@@ -81,8 +88,9 @@ typedef struct iccp_spline {
  * point. With fewer than three different points the map is a similarity.
  *
  * Returns ICC_ERR_ARGUMENT if points coincide with different targets, if the targets mirror the
- * points, or if the targets lie on one line. Other failures: ICC_ERR_MEMORY, ICC_ERR_CANCELLED. On
- * failure nothing stays allocated. Deterministic. O(n^1.3). */
+ * points, or if the targets lie on one line. Returns ICC_ERR_BOUNDARY or ICC_ERR_OUTSIDE if
+ * segments meet one another, or points except at their ends. Other failures: ICC_ERR_MEMORY,
+ * ICC_ERR_CANCELLED. On failure nothing stays allocated. Deterministic. O(n^1.3). */
 icc_status iccp_spline_create(iccp_spline *spline, const iccp_spline_task *task,
                               const iccp_env *env, icc_error *err);
 void iccp_spline_free(iccp_spline *spline);

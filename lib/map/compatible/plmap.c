@@ -82,6 +82,7 @@ icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_
         iccp_plmap_fill(map, other->points, other->images, other->corners.vertex,
                         other->corners.twin);
         map->featured = other->featured;
+        map->held = other->held;
         memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
         memcpy(map->facet, other->facet, other->n_vertices * sizeof *map->facet);
         memcpy(map->along, other->along, other->n_vertices * sizeof *map->along);

@@ -62,6 +62,7 @@ typedef struct iccp_plmap {
     double stretch;  /* multiplies lengths of the source in energies, so that both areas are
                             the same and energies measure shape alone */
     const struct iccp_newton_plan *plan; /* as in iccp_simplicial_map, borrowed */
+    struct iccp_edge_set *held; /* edges that must stay (map/nearest), borrowed; NULL: none */
     const icc_domain *featured; /* the source if it has features, borrowed; NULL otherwise */
 } iccp_plmap;
 

@@ -85,7 +85,8 @@ icc_status iccp_adopt_vertices(iccp_plmap *map, uint32_t *number, const iccp_los
     for (uint32_t c = 0; is_there && c < 3 * map->corners.n_triangles; ++c)
         a.corner[map->corners.vertex[c]] = c;
     for (uint32_t v = 0; is_there && v < map->n_vertices; ++v) {
-        const uint32_t place = number[v] == NONE ? find_place(&a, v) : NONE;
+        const bool is_new = number[v] == NONE && map->fixed[v] == ICCP_FREE;
+        const uint32_t place = is_new ? find_place(&a, v) : NONE;
         if (place == NONE)
             continue;
         number[v] = place;

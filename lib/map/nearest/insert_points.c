@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "map/compatible/triangle_quality.h"
 #include "math/predicates.h"
+#include "mesh/edge_set.h"
 #include "mesh/finder.h"
 
 #include <string.h>
@@ -71,7 +72,8 @@ bool iccp_may_flip_to_delaunay(const iccp_plmap *map, uint32_t corner)
     const uint32_t x = v[corner], y = v[twin], a = v[iccp_after(corner)],
                    b = v[iccp_before(corner)];
     const double *p = map->points;
-    if (map->fixed[x] == ICCP_ON_POINT && map->fixed[y] == ICCP_ON_POINT)
+    if ((map->fixed[x] == ICCP_ON_POINT && map->fixed[y] == ICCP_ON_POINT) ||
+        iccp_edge_set_has(map->held, a, b))
         return false;
     if (iccp_incircle(p + 2 * (size_t)x, p + 2 * (size_t)a, p + 2 * (size_t)b, p + 2 * (size_t)y) <=
             0 ||
@@ -241,11 +243,19 @@ static bool fits(const insertion *s, uint32_t t, uint32_t on, const double *of, 
     return is;
 }
 
+/* Whether the edge that a corner faces must stay. */
+static bool is_held(const iccp_plmap *map, uint32_t corner)
+{
+    const uint32_t *v = map->corners.vertex;
+    return iccp_edge_set_has(map->held, v[iccp_after(corner)], v[iccp_before(corner)]);
+}
+
 /* Finds the edge that a point is to replace: a corner that faces it, or NONE. */
 static uint32_t find_edge(const insertion *s, uint32_t t, uint32_t i, const double weight[3])
 {
     for (uint32_t k = 0; k < 3; ++k)
         if (weight[k] < NEXT_TO_EDGE && s->map->corners.twin[3 * t + k] != ICCP_NO_NEIGHBOUR &&
+            !is_held(s->map, 3 * t + k) &&
             fits(s, t, 3 * t + k, s->map->points, s->points + 2 * (size_t)i))
             return 3 * t + k;
     return NONE;
@@ -338,6 +348,7 @@ static icc_status make_room(iccp_plmap *map, size_t n, const iccp_memory *memory
     memcpy(larger.fixed, map->fixed, n_vertices * sizeof *map->fixed);
     memcpy(larger.facet, map->facet, n_vertices * sizeof *map->facet);
     memcpy(larger.along, map->along, n_vertices * sizeof *map->along);
+    larger.held = map->held;
     iccp_plmap_free(map);
     *map = larger;
     return ICC_OK;

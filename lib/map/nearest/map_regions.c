@@ -86,7 +86,10 @@ static icc_status begin_piece(iccp_pieces *p, const iccp_region *region)
         p->room = room;
     }
     p->piece_of[region->first] = (uint32_t)p->n;
-    p->item[p->n++] = (iccp_piece){region->first, region->n, {.map.memory = p->regions.memory}};
+    p->item[p->n++] =
+        (iccp_piece){region->first,
+                     region->n,
+                     {.map.memory = p->regions.memory, .held.memory = p->regions.memory}};
     return ICC_OK;
 }
 
@@ -150,13 +153,13 @@ icc_status iccp_pieces_fill(iccp_pieces *pieces, const iccp_env *env)
 
 /* ---- gluing ---- */
 
-static const iccp_refill *refill_of(const iccp_pieces *p, size_t region)
+static iccp_refill *refill_of(const iccp_pieces *p, size_t region)
 {
     return &p->item[p->piece_of[p->regions.item[region].first]].refill;
 }
 
-/* Appends the vertices and triangles of a region that was mapped anew. */
-static void append(iccp_plmap *result, const iccp_refill *f, uint32_t *number)
+/* Appends the vertices, triangles and held edges of a region that was mapped anew. */
+static icc_status append(iccp_plmap *result, iccp_refill *f, uint32_t *number)
 {
     uint32_t *corner = result->corners.vertex + 3 * result->corners.n_triangles;
     for (size_t v = 0; v < f->map.n_vertices; ++v) {
@@ -164,7 +167,8 @@ static void append(iccp_plmap *result, const iccp_refill *f, uint32_t *number)
         if (number[v] == NONE) {
             number[v] = (uint32_t)result->n_vertices++;
             iccp_plmap_copy_vertex(result, number[v], &f->map, v);
-            result->fixed[number[v]] = ICCP_FREE;
+            if (f->map.fixed[v] != ICCP_ON_POINT)
+                result->fixed[number[v]] = ICCP_FREE;
         } else
             memcpy(result->images + 2 * (size_t)number[v], f->map.images + 2 * v,
                    2 * sizeof(double));
@@ -172,6 +176,9 @@ static void append(iccp_plmap *result, const iccp_refill *f, uint32_t *number)
     for (size_t c = 0; c < 3 * f->map.corners.n_triangles; ++c)
         *corner++ = number[f->map.corners.vertex[c]];
     result->corners.n_triangles += f->map.corners.n_triangles;
+    for (size_t k = 0; k < 2 * f->held.n; ++k)
+        f->held.ends[k] = number[f->held.ends[k]];
+    return f->held.n > 0 ? iccp_edge_set_add(result->held, f->held.n, f->held.ends) : ICC_OK;
 }
 
 /* Counts what the new maps bring. */
@@ -223,10 +230,12 @@ static icc_status join(iccp_plmap *result, const iccp_pieces *p, size_t *n_kept,
     if (status == ICC_OK) {
         copy_kept(result, p);
         *n_kept = result->corners.n_triangles;
-        for (size_t k = 0; k < p->regions.n; ++k)
-            append(result, refill_of(p, k), number);
-        status = iccp_find_twins(&result->corners, result->n_vertices, &is_manifold, env);
+        result->held = map->held;
     }
+    for (size_t k = 0; status == ICC_OK && k < p->regions.n; ++k)
+        status = append(result, refill_of(p, k), number);
+    if (status == ICC_OK)
+        status = iccp_find_twins(&result->corners, result->n_vertices, &is_manifold, env);
     iccp_free(&env->memory, number);
     return status == ICC_OK && !is_manifold ? ICC_ERR_CERTIFICATE : status;
 }

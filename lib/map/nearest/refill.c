@@ -4,6 +4,7 @@
 #include "map/nearest/refill.h"
 
 #include "domain/features.h"
+#include "domain/network_same.h"
 #include "map/compatible/compatible.h"
 #include "map/compatible/overlay_start.h"
 #include "map/energy/schedule.h"
@@ -18,7 +19,8 @@ static const uint32_t NONE = UINT32_MAX;
 static icc_status forgive(icc_status status)
 {
     return status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE ||
-                   status == ICC_ERR_RESOLUTION || status == ICC_ERR_CERTIFICATE
+                   status == ICC_ERR_RESOLUTION || status == ICC_ERR_CERTIFICATE ||
+                   status == ICC_ERR_TOPOLOGY
                ? ICC_OK
                : status;
 }
@@ -58,50 +60,123 @@ static icc_status fill_disc(iccp_refill *f, const iccp_rim *rim, const iccp_plma
 
 /* ---- with holes and held vertices ---- */
 
-/* Makes the domain before the map, or after it. */
-static icc_status make_domain(icc_domain **out, const iccp_rim *rim, const double *coordinates,
-                              const iccp_env *env)
+/* The features of a region: the rings of holes, then held points, then held edges as lines. */
+typedef struct contents {
+    size_t n_vertices, n;
+    uint32_t *place; /* of each vertex: its place in iccp_rim::vertex */
+    icc_feature *features;
+    double *coordinates; /* 2 n_vertices: those of the domain that is made */
+} contents;
+
+static void free_contents(contents *c, const iccp_memory *memory)
 {
-    const size_t n = rim->n_rings - 1 + rim->n_held;
-    icc_feature *features = iccp_alloc_zero(&env->memory, n, sizeof *features);
-    *out = NULL;
-    if (features == NULL)
+    iccp_free(memory, c->place);
+    iccp_free(memory, c->features);
+    iccp_free(memory, c->coordinates);
+}
+
+static void add_feature(contents *c, int32_t kind, size_t n, const uint32_t *places)
+{
+    c->features[c->n++] = (icc_feature){.size = sizeof *c->features,
+                                        .kind = kind,
+                                        .n_vertices = n,
+                                        .vertices = c->coordinates + 2 * c->n_vertices};
+    memcpy(c->place + c->n_vertices, places, n * sizeof *places);
+    c->n_vertices += n;
+}
+
+/* Lists the rings, the held vertices without held edges, and the held edges. `places`: all numbers
+ * in rising order. `is_end` has zeros. */
+static void list_contents(contents *c, const iccp_rim *rim, const uint32_t *places, uint8_t *is_end)
+{
+    for (size_t k = 0; k < 2 * rim->n_edges; ++k)
+        is_end[rim->edges[k]] = 1;
+    memcpy(c->place, places + rim->ring[0].first, rim->ring[0].n * sizeof *places);
+    c->n_vertices = rim->ring[0].n;
+    for (size_t k = 1; k < rim->n_rings + rim->n_held; ++k)
+        if (k < rim->n_rings || !is_end[rim->ring[k].first])
+            add_feature(c, k < rim->n_rings ? ICC_FEATURE_HOLE : ICC_FEATURE_POINT, rim->ring[k].n,
+                        places + rim->ring[k].first);
+    for (size_t k = 0; k < rim->n_edges; ++k)
+        add_feature(c, ICC_FEATURE_LINE, 2, rim->edges + 2 * k);
+}
+
+static icc_status make_contents(contents *c, const iccp_rim *rim, const iccp_memory *memory)
+{
+    const size_t n_places = rim->n_points + rim->n_held, most = n_places + 2 * rim->n_edges;
+    *c = (contents){.place = iccp_alloc(memory, most, sizeof *c->place),
+                    .features = iccp_alloc(memory, rim->n_rings + rim->n_held + rim->n_edges,
+                                           sizeof *c->features),
+                    .coordinates = iccp_alloc(memory, most, 2 * sizeof *c->coordinates)};
+    uint32_t *places = iccp_alloc(memory, n_places, sizeof *places);
+    uint8_t *is_end = iccp_alloc_zero(memory, n_places, 1);
+    const bool ready = c->place != NULL && c->features != NULL && c->coordinates != NULL &&
+                       places != NULL && is_end != NULL;
+    for (uint32_t k = 0; ready && k < n_places; ++k)
+        places[k] = k;
+    if (ready)
+        list_contents(c, rim, places, is_end);
+    iccp_free(memory, places);
+    iccp_free(memory, is_end);
+    return ready ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* Makes the domain before the map, or after it. */
+static icc_status make_domain(icc_domain **out, const contents *c, const iccp_rim *rim,
+                              const double *coordinates, const iccp_env *env)
+{
+    for (size_t i = 0; i < c->n_vertices; ++i)
+        memcpy(c->coordinates + 2 * i, coordinates + 2 * (size_t)c->place[i],
+               2 * sizeof *coordinates);
+    return iccp_domain_create_features(out, rim->ring[0].n, c->coordinates, c->n, c->features, env,
+                                       NULL);
+}
+
+/* Lists the edges of the map that are parts of held ones. */
+static icc_status list_held(iccp_refill *f, const iccp_memory *memory)
+{
+    const iccp_corners *corners = &f->map.corners;
+    uint32_t *ends = iccp_alloc(memory, corners->n_triangles, 3 * sizeof *ends);
+    size_t n = 0;
+    if (ends == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t k = 0; k < n; ++k)
-        features[k] =
-            (icc_feature){.size = sizeof *features,
-                          .kind = k < rim->n_rings - 1 ? ICC_FEATURE_HOLE : ICC_FEATURE_POINT,
-                          .n_vertices = rim->ring[k + 1].n,
-                          .vertices = coordinates + 2 * (size_t)rim->ring[k + 1].first};
-    const icc_status status =
-        iccp_domain_create_features(out, rim->ring[0].n, coordinates, n, features, env, NULL);
-    iccp_free(&env->memory, features);
+    for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
+        if (corners->twin[c] != ICCP_NO_NEIGHBOUR && corners->twin[c] > c &&
+            iccp_plmap_is_line(&f->map, c)) {
+            ends[2 * n] = corners->vertex[iccp_after(c)];
+            ends[2 * n++ + 1] = corners->vertex[iccp_before(c)];
+        }
+    const icc_status status = iccp_edge_set_add(&f->held, n, ends);
+    iccp_free(memory, ends);
     return status;
 }
 
 /* Brings a map from the domains' local coordinates to those of the whole. Vertices of the domains
  * get their coordinates and numbers from the rim, and are fixed as those of the whole are. */
-static icc_status bring_back(iccp_refill *f, const iccp_rim *rim, const iccp_plmap *whole,
-                             icc_domain *const domain[2], const iccp_memory *memory)
+static icc_status bring_back(iccp_refill *f, const iccp_rim *rim, const contents *inside,
+                             const iccp_plmap *whole, icc_domain *const domain[2],
+                             const iccp_memory *memory)
 {
     uint32_t *at = iccp_alloc(memory, domain[0]->n_vertices, sizeof *at);
     icc_status status =
         at != NULL ? allocate_numbers(f, f->map.n_vertices, memory) : ICC_ERR_MEMORY;
     if (status == ICC_OK && !iccp_plmap_find_vertices(&f->map, at))
         status = ICC_ERR_CERTIFICATE;
+    if (status == ICC_OK && rim->n_edges > 0)
+        status = list_held(f, memory);
     for (size_t v = 0; status == ICC_OK && v < f->map.n_vertices; ++v) {
         iccp_frame_out(&domain[0]->frame, 2, f->map.points + 2 * v, f->map.points + 2 * v);
         iccp_frame_out(&domain[1]->frame, 2, f->map.images + 2 * v, f->map.images + 2 * v);
+        if (f->map.fixed[v] == ICCP_ON_NETWORK)
+            f->map.fixed[v] = ICCP_ON_POINT;
     }
-    size_t i = 0;
-    for (size_t k = 0; status == ICC_OK && k < rim->n_rings + rim->n_held; ++k)
-        for (uint32_t j = rim->ring[k].first; j < rim->ring[k].first + rim->ring[k].n; ++j) {
-            const size_t v = at[i++], own = rim->vertex[j];
-            f->vertex[v] = (uint32_t)own;
-            f->map.fixed[v] = k < rim->n_rings ? ICCP_ALONG : ICCP_ON_POINT;
-            memcpy(f->map.points + 2 * v, whole->points + 2 * own, 2 * sizeof(double));
-            memcpy(f->map.images + 2 * v, whole->images + 2 * own, 2 * sizeof(double));
-        }
+    for (size_t i = 0; status == ICC_OK && i < inside->n_vertices; ++i) {
+        const size_t v = at[i], own = rim->vertex[inside->place[i]];
+        f->vertex[v] = (uint32_t)own;
+        f->map.fixed[v] = inside->place[i] < rim->n_points ? ICCP_ALONG : ICCP_ON_POINT;
+        memcpy(f->map.points + 2 * v, whole->points + 2 * own, 2 * sizeof(double));
+        memcpy(f->map.images + 2 * v, whole->images + 2 * own, 2 * sizeof(double));
+    }
     f->map.stretch = whole->stretch;
     f->map.featured = NULL;
     iccp_free(memory, at);
@@ -114,9 +189,14 @@ static icc_status fill_features(iccp_refill *f, const iccp_rim *rim, const iccp_
     const icc_map_options options = {.size = sizeof options};
     icc_domain *domain[2] = {NULL, NULL};
     iccp_feature_report report = {.cuts.memory = env->memory};
-    icc_status status = make_domain(&domain[0], rim, rim->points, env);
+    contents inside;
+    icc_status status = make_contents(&inside, rim, &env->memory);
     if (status == ICC_OK)
-        status = make_domain(&domain[1], rim, rim->images, env);
+        status = make_domain(&domain[0], &inside, rim, rim->points, env);
+    if (status == ICC_OK)
+        status = make_domain(&domain[1], &inside, rim, rim->images, env);
+    if (status == ICC_OK && rim->n_edges > 0)
+        status = iccp_network_same(domain[0], domain[1], NULL);
     if (status == ICC_OK) {
         iccp_allowance allowance = iccp_allow(domain[0]->features->n_places);
         allowance.overlay.left = allowance.relaxing;
@@ -127,9 +207,10 @@ static icc_status fill_features(iccp_refill *f, const iccp_rim *rim, const iccp_
         iccp_feature_report_free(&report);
     }
     if (status == ICC_OK)
-        status = bring_back(f, rim, whole, domain, &env->memory);
+        status = bring_back(f, rim, &inside, whole, domain, &env->memory);
     iccp_domain_release(domain[0]);
     iccp_domain_release(domain[1]);
+    free_contents(&inside, &env->memory);
     return status;
 }
 
@@ -212,14 +293,16 @@ icc_status iccp_refill_create(iccp_refill *refill, const iccp_rim *rim, const ic
                             rim->n_inside - rim->n_held};
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
-    *refill = (iccp_refill){.map.memory = env->memory};
-    icc_status status = rim->n_rings == 1 && rim->n_held == 0
+    *refill = (iccp_refill){.map.memory = env->memory, .held.memory = env->memory};
+    icc_status status = rim->n_rings == 1 && rim->n_held + rim->n_edges == 0
                             ? fill_disc(refill, rim, whole, &part[0])
                             : fill_features(refill, rim, whole, vain, &part[0]);
     if (status == ICC_OK && !has_rim(refill, rim))
         status = ICC_ERR_CERTIFICATE;
+    refill->map.held = &refill->held;
     if (status == ICC_OK)
         status = bring_lost_back(refill, &lost, whole, &part[1]);
+    refill->map.held = NULL;
     if (status != ICC_OK)
         iccp_refill_free(refill);
     return forgive(status);
@@ -230,5 +313,6 @@ void iccp_refill_free(iccp_refill *refill)
     const iccp_memory memory = refill->map.memory;
     iccp_plmap_free(&refill->map);
     iccp_free(&memory, refill->vertex);
-    *refill = (iccp_refill){.map.memory = memory, .vain = refill->vain};
+    iccp_edge_set_free(&refill->held);
+    *refill = (iccp_refill){.map.memory = memory, .held.memory = memory, .vain = refill->vain};
 }

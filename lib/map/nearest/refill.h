@@ -5,13 +5,15 @@
 #include "map/energy/work.h"
 #include "map/nearest/adopt.h"
 #include "map/nearest/regions.h"
+#include "mesh/edge_set.h"
 
-/* A one-to-one map of a region: with the rim and the held vertices where they are, and with all
- * vertices that the region had. */
+/* A one-to-one map of a region: with the rim, the held vertices and the held edges where they are,
+ * and with all vertices that the region had. */
 typedef struct iccp_refill {
-    iccp_plmap map;   /* empty if rounding spoils every map that was tried */
-    uint32_t *vertex; /* of each vertex of `map`: the vertex of the whole, or UINT32_MAX: new */
-    double vain;      /* work on attempts that led to no map */
+    iccp_plmap map;     /* empty if rounding spoils every map that was tried */
+    uint32_t *vertex;   /* of each vertex of `map`: the vertex of the whole, or UINT32_MAX: new */
+    iccp_edge_set held; /* edges of `map` */
+    double vain;        /* work on attempts that led to no map */
 } iccp_refill;
 
 /* Maps the region inside a rim anew. `whole` is the map that the rim belongs to. `given` finds

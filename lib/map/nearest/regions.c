@@ -6,6 +6,7 @@
 
 #include "base/minmax.h"
 #include "base/sort.h"
+#include "mesh/edge_set.h"
 
 #include <string.h>
 
@@ -291,6 +292,38 @@ static icc_status copy_coordinates(iccp_rim *rim, const iccp_plmap *map, const i
     return ICC_OK;
 }
 
+/* Numbers the vertices of the rim and the held ones by their places, or forgets the numbers. */
+static void number_places(iccp_regions *r, const iccp_rim *rim, bool forget)
+{
+    for (size_t i = 0; i < rim->n_rings + rim->n_held; ++i)
+        for (uint32_t k = rim->ring[i].first; k < rim->ring[i].first + rim->ring[i].n; ++k)
+            r->link[rim->vertex[k]] = forget ? NONE : k;
+}
+
+/* Lists the held edges inside a region. */
+static icc_status list_edges(iccp_rim *rim, iccp_regions *r, size_t region,
+                             const iccp_memory *memory)
+{
+    const iccp_region *own = &r->item[region];
+    if (r->map->held == NULL)
+        return ICC_OK;
+    rim->edges = iccp_alloc(memory, own->n, 3 * sizeof *rim->edges);
+    if (rim->edges == NULL)
+        return ICC_ERR_MEMORY;
+    number_places(r, rim, false);
+    for (size_t i = 0; i < 3 * own->n; ++i) {
+        const uint32_t c = (uint32_t)corner_at(r, own, i), a = from(r, c),
+                       b = r->map->corners.vertex[iccp_before(c)];
+        if (is_border(r, region, c) || r->map->corners.twin[c] < c || r->link[a] == NONE ||
+            r->link[b] == NONE || !iccp_edge_set_has(r->map->held, a, b))
+            continue;
+        rim->edges[2 * rim->n_edges] = r->link[a];
+        rim->edges[2 * rim->n_edges++ + 1] = r->link[b];
+    }
+    number_places(r, rim, true);
+    return ICC_OK;
+}
+
 /* Lists the rim of a region. It has no rings if the rim meets itself in a vertex. */
 icc_status iccp_rim_create(iccp_rim *rim, iccp_regions *regions, size_t region,
                            const iccp_memory *memory)
@@ -321,7 +354,8 @@ icc_status iccp_rim_create(iccp_rim *rim, iccp_regions *regions, size_t region,
             take_ring(rim, r, v);
     }
     list_inside(rim, r, own);
-    return copy_coordinates(rim, r->map, memory);
+    const icc_status status = copy_coordinates(rim, r->map, memory);
+    return status == ICC_OK ? list_edges(rim, r, region, memory) : status;
 }
 
 void iccp_rim_free(iccp_rim *rim, const iccp_memory *memory)
@@ -331,6 +365,7 @@ void iccp_rim_free(iccp_rim *rim, const iccp_memory *memory)
     iccp_free(memory, rim->corner);
     iccp_free(memory, rim->points);
     iccp_free(memory, rim->images);
+    iccp_free(memory, rim->edges);
 }
 
 /* ---- rounds ---- */

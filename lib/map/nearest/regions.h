@@ -6,7 +6,8 @@
  * - region: triangles that are connected across edges and contain folded ones.
  * - rim: the rings of edges around a region, with the region on their left. The first ring is the
  *   outer one. The others go around holes of the mesh.
- * - held vertex: one inside the mesh whose image must stay (ICCP_ON_POINT).
+ * - held vertex: one inside the mesh whose image must stay (ICCP_ON_POINT). Held edge: one between
+ *   them that must stay, too, except that new held vertices may divide it (iccp_plmap::held).
  * - sound region: the images of its rim bound a plane region, and the images of its held vertices
  *   lie inside it. Exact.
  *
@@ -50,6 +51,8 @@ typedef struct iccp_rim {
     uint32_t *corner;         /* n_points: the corner that faces the edge from there */
     double *points, *images;  /* of `vertex` up to the held ones */
     size_t n_held, n_inside;  /* n_inside counts held ones, too */
+    size_t n_edges;           /* held edges inside */
+    uint32_t *edges;          /* 2 n_edges: places in `vertex` */
 } iccp_rim;
 
 /* Chooses the folded triangles, nearly folded ones, and two rings around them. */

@@ -152,7 +152,8 @@ START_TEST(energy)
     iccp_frame_region region;
     iccp_box_mesh mesh;
     iccp_gram q;
-    ck_assert(iccp_frame_region_create(&region, 30, sheet.points, NULL, NULL, &env) == ICC_OK);
+    ck_assert(iccp_frame_region_create(&region, 30, sheet.points, NULL, NULL, NULL, &env) ==
+              ICC_OK);
     ck_assert(iccp_frame_mesh(&mesh, &region, 0.1, 24, 0, &env) == ICC_OK);
     const iccp_bending_mesh bending = iccp_bending_mesh_of(&mesh);
     ck_assert(iccp_bending_energy(&q, &bending, &env) == ICC_OK);
@@ -545,6 +546,10 @@ START_TEST(failures)
     points_set sheet = make_sheet(12, wavy, &r);
     iccp_spline_task task = task_of(&sheet);
     faulty_sweep(call_spline, &task);
+    task.n_segments = 1;
+    task.segments = (const uint32_t[]){0, 1};
+    faulty_sweep(call_spline, &task);
+    task.n_segments = 0;
     for (size_t i = 0; i < sheet.n; ++i)
         sheet.tolerances[i] = 0.01;
     task.tolerances = sheet.tolerances;
