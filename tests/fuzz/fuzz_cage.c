@@ -10,18 +10,15 @@ static bool is_message(const problem *wrong)
            strlen(wrong->text) < sizeof wrong->text;
 }
 
-/* Holes first, by their place; then lines and points by rising numbers, ties likewise. */
+/* Outlines and holes first; then features by rising numbers, ties likewise. */
 static void check_features(const cage *c, size_t size)
 {
-    size_t n_holes = cage_count(c, ICC_FEATURE_HOLE);
     char text[120];
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        size_t least = f->kind == ICC_FEATURE_HOLE ? 3 : f->kind == ICC_FEATURE_LINE ? 2 : 1;
+        size_t least = feature_is_ring(f) ? 3 : f->kind == ICC_FEATURE_LINE ? 2 : 1;
         require(f->n >= least && f->points != NULL && f->line <= size + 1);
-        require((f->kind == ICC_FEATURE_HOLE) == (i < n_holes));
-        require(i >= n_holes || f->number == (int64_t)i + 1);
-        require(i <= n_holes || f->number > f[-1].number);
+        require(i == 0 || feature_is_ring(f - 1) || f->number > f[-1].number);
         require(f->radius >= 0 && (f->radius == 0 || f->kind == ICC_FEATURE_POINT));
     }
     for (size_t i = 0; i < c->n_ties; i++)
@@ -49,7 +46,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             .named = role == CAGE_TARGET ? names[size % 4] : NULL,
             .flat = {role == CAGE_TARGET ? 0.25 : 0, cages[0].n_curves, cages[0].curve_edges}};
         bool good = cage_read(c, &choice, 2, text, size, &wrong);
-        require(good ? c->cells != NULL || c->n > c->dim : c->dim == 0 && c->points == NULL);
+        const bool has_rings = cage_outlines(c) > 1 || cage_count(c, ICC_FEATURE_REGION) > 0;
+        require(good ? c->cells != NULL || c->n > c->dim || has_rings
+                     : c->dim == 0 && c->points == NULL);
         require(good || is_message(&wrong));
         for (size_t i = 0; i < c->n; i++)
             require(c->lines[i] <= size + 1);

@@ -108,10 +108,12 @@ static void check_map(const uint8_t *bytes, size_t size, const icc_env *env)
     check_status(status, map);
     if (map == NULL)
         return;
-    uint8_t *again = malloc(size);
+    /* An older version becomes the present one when it is saved. Its number is at byte 8. */
+    require(icc_map_save(map, 0, NULL, &n) == ICC_OK);
+    uint8_t *again = malloc(n);
     require(again != NULL);
-    require(icc_map_save(map, size, again, &n) == ICC_OK);
-    require(n == size && memcmp(again, bytes, size) == 0);
+    require(icc_map_save(map, n, again, &n) == ICC_OK);
+    require(again[8] != bytes[8] || (n == size && memcmp(again, bytes, size) == 0));
     require(icc_map_get_info(map, &info) == ICC_OK);
     if (icc_map_source_chart(map) != NULL) {
         double points[N_POINTS * ICC_MAX_DIM];

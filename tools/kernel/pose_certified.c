@@ -58,7 +58,7 @@ static int failed_handle(pose *p, const posed_places *in, const icc_error *err)
     if (err->item != ICC_ITEM_FEATURE || err->index < 0 || (size_t)err->index >= in->n)
         return failed(p->kernel.job.args->pose, 0, "%s", job_message(err));
     const char *why = err->status == ICC_ERR_OUTSIDE    ? "is not inside the posed outline"
-                      : err->status == ICC_ERR_BOUNDARY ? "is where another one is"
+                      : err->status == ICC_ERR_TOPOLOGY ? "is where another one or a corner is"
                                                         : job_message(err);
     return failed(p->kernel.job.args->pose, 0,
                   "handle %zu, posed, %s; --certified needs all of them inside and apart",

@@ -85,8 +85,9 @@ class Domain(Handle):
                  points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
                  features: Optional[Iterable[Tuple[str, ArrayLike]]] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
-        vertices = np.empty((0, 2)) if vertices is None else _plain(vertices)
         regions, holes, lines = list(regions), list(holes), list(parts_of(lines) if is_geometry(lines) else lines)
+        has_outline = vertices is not None or not (regions or features is not None)
+        vertices = _plain(vertices) if has_outline else np.empty((0, 2))
         has_features = bool(regions or holes or lines or features is not None or np.size(() if points is None else points))
         if has_features and facets is not None:
             raise ValueError("a boundary of facets has no holes, lines or points inside: these are for polygons in the "

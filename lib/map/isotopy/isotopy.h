@@ -41,8 +41,8 @@ icc_status iccp_isotopy_has_cuts(bool *kept, const iccp_plmap *map, const iccp_d
 /* Moves all vertices of the target straight to their new places and carries the images along. The
  * result is cuts in the source and in the new target. They describe the class that the old map's
  * class becomes. *arrived is false if vertices meet walls or one another on the way, or if rounding
- * prevents an answer. Then there are no cuts. Where nothing has to be cut, there is one class, and no
- * way is needed. The caller frees the cuts in any case. */
+ * prevents an answer. Then there are no cuts. Where nothing has to be cut, there is one class, and
+ * no way is needed. The caller frees the cuts in any case. */
 icc_status iccp_isotopy_move(iccp_cuts *cuts, bool *arrived, const iccp_isotopy *isotopy,
                              const icc_domain *source, const icc_domain *old_target,
                              const icc_domain *target, const iccp_env *env);
