@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NO_POLYGON = UINT32_MAX };
+static const size_t NO_POLYGON = UINT32_MAX;
 
 /* A side as it is given: positions, later nodes, and the polygon that it bounds. */
 typedef struct given_side {
