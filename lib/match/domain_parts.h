@@ -14,7 +14,7 @@ enum { ICCP_KIND_RIM = ICC_FEATURE_REGION + 1, ICCP_KIND_CLOSED, ICCP_KIND_OUTLI
 
 typedef struct iccp_domain_part {
     uint32_t ring; /* the region that is its outline; or ICCP_NO_FEATURE: the outer ring */
-    /* What is inside the outline and in no hole: its area and its centre, local. 0 for a domain
+    /* The area and the centre of the part, without its holes, local. 0 for a domain
      * without features */
     double area, centre[2];
     size_t count[ICCP_N_KINDS]; /* features inside, by kind */

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-/* What is known of a half-side at a node, or of a vertex between nodes. A vertex between nodes has
- * these bits once for each of the two half-sides. */
+/* The edges found along a half-side: one leaves its first node, one reaches its last. A vertex
+ * between the nodes of a side has these bits twice, once for each half-side. */
 enum bits { LEFT = 1, REACHED = 2, WHOLE = LEFT | REACHED };
 
 typedef struct rows {
@@ -85,7 +85,7 @@ static bool follow(rows *r)
     for (uint32_t v = 0; is && v < map->n_vertices; ++v)
         is = is_good(r, v);
     for (uint32_t f = 0; is && f < source->features->n_places; ++f)
-        if (r->network->side[f] == f && source->facets[2 * f] != source->facets[2 * f + 1])
+        if (iccp_network_is_side(r->network, source, f))
             is = r->half[2 * f] == wanted(r, 2 * f) && r->half[2 * f + 1] == wanted(r, 2 * f + 1);
     return is;
 }

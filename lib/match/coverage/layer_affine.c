@@ -70,7 +70,7 @@ void iccp_layer_affine_fit(iccp_layer_affine *affine, size_t n, const double *pa
         m[0] = m[3] = (c[0] + c[3]) / trace;
         m[2] = (c[2] - c[1]) / trace;
         m[1] = -m[2];
-        /* Of mirrored places any turn may be as good. */
+        /* For mirrored places all turns can fit equally well. */
         if ((m[0] * m[0] + m[2] * m[2]) * trace <= flat * flat * spread)
             return;
     }

@@ -1,6 +1,7 @@
 /* A border between nodes that only one layer has takes the pieces on both sides out, and so their
  * partners in the other layer: pieces that lie on the same side of paired borders. An island that
- * only one layer has is filled: its two rings vanish, with everything inside. */
+ * only one layer has is filled: its two rings vanish. Islands inside it stay if both layers have
+ * them. */
 #include "match/coverage/leave_out.h"
 
 #include "base/sets.h"
