@@ -12,12 +12,23 @@ static const char *turn_of(const icc_domain *domain)
     return domain->orientation > 0 ? "oriented outward" : "oriented inward";
 }
 
+/* Returns the number of outer rings and regions. */
+static size_t count_parts(const iccp_features *features)
+{
+    return features == NULL ? 1 : (features->n_outer > 0 ? 1 : 0) + features->n_regions;
+}
+
 /* Checks that feature i of both domains has one kind and the same number of vertices, and that
  * rings turn the same way. */
 static icc_status check_features(const iccp_features *source, const iccp_features *target,
                                  icc_error *err)
 {
     const size_t n = source != NULL ? source->n : 0, m = target != NULL ? target->n : 0;
+    const size_t n_parts = count_parts(source), m_parts = count_parts(target);
+    if (n_parts != m_parts)
+        return iccp_fail(err, ICC_ERR_BOUNDARY,
+                         "the source has %zu parts (outer rings and regions), the target %zu",
+                         n_parts, m_parts);
     if (n != m)
         return iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu features, the target %zu", n,
                          m);
