@@ -22,7 +22,28 @@ void iccp_simplices_free(iccp_simplices *mesh)
     iccp_free(&memory, mesh->given);
     iccp_free(&memory, mesh->corners);
     iccp_free(&memory, mesh->across);
+    iccp_free(&memory, mesh->region);
+    iccp_free(&memory, mesh->on_line);
     iccp_free(&memory, mesh);
+}
+
+/* Returns false if there is no memory. */
+static bool copy_features(iccp_simplices *copy, const iccp_simplices *mesh)
+{
+    if (mesh->region != NULL) {
+        copy->region = iccp_alloc(&copy->memory, mesh->n_simplices, sizeof *copy->region);
+        if (copy->region == NULL)
+            return false;
+        memcpy(copy->region, mesh->region, mesh->n_simplices * sizeof *copy->region);
+    }
+    if (mesh->on_line != NULL) {
+        copy->on_line = iccp_alloc(&copy->memory, mesh->n_on_lines, sizeof *copy->on_line);
+        if (copy->on_line == NULL)
+            return false;
+        memcpy(copy->on_line, mesh->on_line, mesh->n_on_lines * sizeof *copy->on_line);
+        copy->n_on_lines = mesh->n_on_lines;
+    }
+    return true;
 }
 
 icc_status iccp_simplices_copy(iccp_simplices **out, const iccp_simplices *mesh,
@@ -35,10 +56,14 @@ icc_status iccp_simplices_copy(iccp_simplices **out, const iccp_simplices *mesh,
     *copy = *mesh;
     copy->memory = *memory;
     copy->given = NULL;
+    copy->region = NULL;
+    copy->on_line = NULL;
+    copy->n_on_lines = 0;
     copy->points = iccp_alloc(memory, n, sizeof *copy->points);
     copy->corners = iccp_alloc(memory, n_sides, sizeof *copy->corners);
     copy->across = iccp_alloc(memory, n_sides, sizeof *copy->across);
-    if (copy->points == NULL || copy->corners == NULL || copy->across == NULL) {
+    if (copy->points == NULL || copy->corners == NULL || copy->across == NULL ||
+        !copy_features(copy, mesh)) {
         iccp_simplices_free(copy);
         *out = NULL;
         return ICC_ERR_MEMORY;

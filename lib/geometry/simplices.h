@@ -14,6 +14,12 @@
 /* Marks a side on the domain's boundary. The other bits are the number of the domain's facet. */
 #define ICCP_ON_BOUNDARY 0x80000000u
 
+/* A point of the mesh on a line of the domain, between vertices a and b of the line. */
+typedef struct iccp_on_line {
+    uint32_t point, a, b;
+    double share; /* of the way from a to b */
+} iccp_on_line;
+
 typedef struct iccp_simplices {
     iccp_memory memory;
     size_t dim;
@@ -28,6 +34,13 @@ typedef struct iccp_simplices {
     /* For each side: the same facet as a side of its other simplex, or ICCP_ON_BOUNDARY and the
      * domain's facet. */
     uint32_t *across;
+    /* The next members belong to solids with features; otherwise they are NULL and 0. By simplex: 0
+     * at the outer surface, else 1 and the place of its region among the regions. */
+    uint32_t *region;
+    /* The points that were put on lines, in the order of the lines' segments and along them. The
+     * pieces between them are edges of the mesh. */
+    iccp_on_line *on_line;
+    size_t n_on_lines;
 } iccp_simplices;
 
 void iccp_simplices_free(iccp_simplices *mesh);
