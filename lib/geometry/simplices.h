@@ -82,8 +82,8 @@ icc_status iccp_simplices_join(iccp_simplices *mesh, size_t n_facets, const uint
 /* Lists the points of a side as seen from beyond it; for the boundary, from outside. */
 void iccp_simplices_side(const iccp_simplices *mesh, size_t side, uint32_t *points);
 
-/* Returns ICC_ERR_TOPOLOGY unless the simplices of a joined mesh are connected across facets and
- * have Euler characteristic 1. Every point must belong to a simplex. */
+/* Returns ICC_ERR_TOPOLOGY unless the simplices of a joined mesh are connected across facets and,
+ * but in space, have Euler characteristic 1. Every point must belong to a simplex. */
 icc_status iccp_simplices_check_shape(const iccp_simplices *mesh, icc_error *err);
 
 #endif
