@@ -31,7 +31,13 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
         full.n_junctions = domain->features->network->n_junctions;
         full.n_pieces = domain->features->network->n_pieces;
         full.n_faces = domain->features->network->n_faces;
+        full.n_holes = domain->features->n_holes;
+        full.n_lines = domain->features->n_lines;
+        full.n_points = domain->features->n_points;
+        full.n_regions = domain->features->n_regions;
     }
+    full.n_voids = domain->n_voids;
+    full.genus = domain->genus;
     full.n_mesh_simplices = domain->mesh != NULL ? domain->mesh->n_simplices : 0;
     iccp_frame_out(frame, domain->dim, domain->lower, full.lower);
     iccp_frame_out(frame, domain->dim, domain->upper, full.upper);

@@ -25,7 +25,7 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
     const char *missing = out == NULL ? "out" : domain == NULL ? "domain" : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = iccp_domain_refuse_features(domain, "the domain of a grid", err);
+        status = iccp_domain_require_ball(domain, "the domain of a grid", err);
     if (status != ICC_OK)
         return status;
     if (cells == 0)

@@ -41,6 +41,9 @@ static icc_status check_regions(int32_t dim, size_t n_regions, const icc_domain 
             return iccp_fail_at(
                 err, ICC_ERR_UNSUPPORTED, ICC_ITEM_REGION, (int64_t)r,
                 "region %zu has holes, lines or points inside, which only mesh maps can have", r);
+        if (regions[r]->genus > 0 || regions[r]->n_voids > 0)
+            return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_REGION, (int64_t)r,
+                                "region %zu has handles or voids; it must be a ball", r);
     }
     return ICC_OK;
 }

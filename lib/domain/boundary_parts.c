@@ -5,9 +5,9 @@
 #include "domain/boundary_parts.h"
 
 #include "base/error.h"
+#include "domain/closed_surfaces.h"
 #include "domain/complex.h"
 #include "domain/simplicial.h"
-#include "geometry/crossings.h"
 #include "geometry/edges_bound.h"
 #include "geometry/triangles.h"
 
@@ -49,45 +49,12 @@ static icc_status check_edges(const iccp_boundary_parts *b, const double *points
 
 /* ---- space ---- */
 
-/* Sorts the facets by surface. */
-static icc_status sort_surfaces(iccp_boundary_parts *b, const iccp_complex *c)
-{
-    const iccp_memory *memory = &b->memory;
-    const size_t n = c->n_facets;
-    uint32_t *order = iccp_alloc(memory, n, sizeof *order);
-    bool *reached = iccp_alloc_zero(memory, n, sizeof *reached);
-    b->facets = iccp_alloc(memory, n, 3 * sizeof *b->facets);
-    b->start = iccp_alloc(memory, n / 4 + 1, sizeof *b->start);
-    const bool is_ready = order != NULL && reached != NULL && b->facets != NULL && b->start != NULL;
-    uint32_t done = 0;
-    for (size_t f = 0; is_ready && f < n; ++f)
-        if (!reached[f]) {
-            b->start[b->n_parts++] = done;
-            done += (uint32_t)iccp_complex_flood(c, f, reached, order + done);
-        }
-    for (size_t f = 0; is_ready && f < n; ++f)
-        memcpy(b->facets + 3 * f, c->facets + 3 * (size_t)order[f], 3 * sizeof *b->facets);
-    if (is_ready)
-        b->start[b->n_parts] = done;
-    iccp_free(memory, order);
-    iccp_free(memory, reached);
-    return is_ready ? ICC_OK : ICC_ERR_MEMORY;
-}
-
 static icc_status create_surfaces(iccp_boundary_parts *b, const iccp_env *env, icc_error *err)
 {
-    uint32_t *facets = b->facets;
-    iccp_complex c = {3, b->n_vertices, b->n_facets, facets, NULL};
-    c.across = iccp_alloc(&b->memory, 3 * b->n_facets, sizeof *c.across);
+    b->across = iccp_alloc(&b->memory, 3 * b->n_facets, sizeof *b->across);
+    iccp_complex c = {3, b->n_vertices, b->n_facets, b->facets, b->across};
     icc_status status = c.across != NULL ? iccp_complex_join(&c, env, err) : ICC_ERR_MEMORY;
-    if (status == ICC_OK)
-        status = iccp_complex_check_vertices(&c, env, err);
-    if (status == ICC_OK)
-        status = sort_surfaces(b, &c);
-    if (b->facets != facets)
-        iccp_free(&b->memory, facets);
-    iccp_free(&b->memory, c.across);
-    return status;
+    return status == ICC_OK ? iccp_complex_check_vertices(&c, env, err) : status;
 }
 
 static icc_status fail_pair(icc_error *err, const uint32_t *a, const uint32_t *b)
@@ -97,33 +64,25 @@ static icc_status fail_pair(icc_error *err, const uint32_t *a, const uint32_t *b
                      (unsigned long)b[0], (unsigned long)b[1], (unsigned long)b[2]);
 }
 
-/* Returns the vertex with the largest x. */
-static const double *last_vertex(const iccp_facet_tree *tree)
+/* Outermost surfaces must face outwards. The others face against the surface around them. */
+static icc_status check_nesting(const iccp_boundary_parts *b, const iccp_facet_tree *tree,
+                                const iccp_env *env, icc_error *err)
 {
-    const double *last = tree->vertices + 3 * (size_t)tree->facets[0];
-    for (size_t i = 1; i < 3 * tree->n; ++i) {
-        const double *v = tree->vertices + 3 * (size_t)tree->facets[i];
-        last = v[0] > last[0] ? v : last;
-    }
-    return last;
-}
-
-/* A ray along x from the last vertex of a surface leaves every surface around it. If it crosses an
- * odd number of facets, the surface lies inside another one and must face inwards. */
-static icc_status check_surface(const iccp_facet_tree *all, const uint32_t *facets, size_t n,
-                                icc_error *err)
-{
-    const iccp_facet_tree own = {
-        .dim = 3, .n_corners = 3, .n = n, .vertices = all->vertices, .facets = facets};
-    int32_t orientation;
-    double volume;
-    const icc_status status = iccp_simplicial_measure(&own, &orientation, &volume, err);
-    const bool is_odd = iccp_ray_parity(all, 0, true, last_vertex(&own));
-    if (status != ICC_OK || orientation == (is_odd ? -1 : 1))
+    const iccp_complex c = {3, b->n_vertices, b->n_facets, b->facets, b->across};
+    iccp_surfaces s;
+    icc_status status = iccp_surfaces_create(&s, &c, tree, env);
+    if (status != ICC_OK)
         return status;
-    return iccp_fail(err, ICC_ERR_BOUNDARY,
-                     "the surface with vertex %lu faces the wrong way beside the others",
-                     (unsigned long)facets[0]);
+    for (size_t k = 0; k < s.n && status == ICC_OK; ++k) {
+        const iccp_surface *own = &s.item[k];
+        const int32_t wanted = own->around == UINT32_MAX ? 1 : -s.item[own->around].orientation;
+        if (own->orientation != wanted)
+            status = iccp_fail(err, ICC_ERR_BOUNDARY,
+                               "the surface with vertex %lu faces the wrong way beside the others",
+                               (unsigned long)own->lowest);
+    }
+    iccp_surfaces_free(&s, &b->memory);
+    return status;
 }
 
 /* Checks surfaces, each of which is closed and connected around each vertex. */
@@ -139,10 +98,7 @@ static icc_status check_surfaces(const iccp_boundary_parts *b, const iccp_facet_
     if (status == ICC_OK && pair[0] != pair[1])
         return fail_pair(err, tree->facets + 3 * (size_t)pair[0],
                          tree->facets + 3 * (size_t)pair[1]);
-    for (size_t k = 0; status == ICC_OK && b->n_parts > 1 && k < b->n_parts; ++k)
-        status = check_surface(tree, tree->facets + 3 * (size_t)b->start[k],
-                               b->start[k + 1] - b->start[k], err);
-    return status;
+    return status == ICC_OK ? check_nesting(b, tree, env, err) : status;
 }
 
 /* ---- both ---- */
@@ -178,7 +134,7 @@ void iccp_boundary_parts_free(iccp_boundary_parts *b)
     const iccp_memory memory = b->memory;
     iccp_outlines_free(&b->outlines);
     iccp_free(&memory, b->facets);
-    iccp_free(&memory, b->start);
+    iccp_free(&memory, b->across);
 }
 
 icc_status iccp_boundary_parts_check(const iccp_boundary_parts *b, const double *points,

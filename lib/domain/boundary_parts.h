@@ -9,10 +9,10 @@
 /* The boundary's parts. Vertices have the caller's numbers. */
 typedef struct iccp_boundary_parts {
     iccp_memory memory;
-    size_t dim, n_vertices, n_facets, n_parts;
+    size_t dim, n_vertices, n_facets;
     iccp_outlines outlines; /* in the plane; empty if rings share vertices */
-    uint32_t *facets;       /* facing outwards; in space sorted by surface */
-    uint32_t *start;        /* n_parts + 1: the first facet of each surface */
+    uint32_t *facets;       /* facing outwards */
+    uint32_t *across;       /* in space: as in domain/complex.h */
 } iccp_boundary_parts;
 
 /* Collects the boundary's parts. Returns ICC_ERR_BOUNDARY if two parts share a vertex or an edge in

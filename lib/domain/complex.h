@@ -27,9 +27,9 @@ icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *er
  * 3-D they then form one cycle. */
 icc_status iccp_complex_check_vertices(const iccp_complex *c, const iccp_env *env, icc_error *err);
 
-/* Like iccp_complex_check_vertices(). Also returns ICC_ERR_TOPOLOGY unless all facets are connected
- * and, in 3-D, form a sphere. */
-icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err);
+/* Like iccp_complex_check_vertices(). Also returns ICC_ERR_TOPOLOGY unless all facets are
+ * connected. */
+icc_status iccp_complex_check_connected(const iccp_complex *c, const iccp_env *env, icc_error *err);
 
 /* Lists the facets that are connected to facet `first`, including itself, and marks them in
  * reached[]. Returns their number. The queue has room for all facets that were not reached

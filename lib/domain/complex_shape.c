@@ -1,4 +1,4 @@
-/* Checks that a boundary is a manifold and, in 3-D, a sphere. */
+/* Checks that a boundary is a manifold in one piece. */
 #include "domain/complex.h"
 
 #include "base/compiler.h"
@@ -107,23 +107,8 @@ static icc_status check_connected(flood *f, icc_error *err)
         return ICC_OK;
     return iccp_fail_at(
         err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)other,
-        "the boundary has more than one component, or the shape an inner void: %s %zu "
-        "is not connected to %s 0 (%zu %ss are)",
+        "the boundary has more than one component: %s %zu is not connected to %s 0 (%zu %ss are)",
         name, other, name, n, name);
-}
-
-/* L. Euler: V - E + F = 2 - 2 genus for a closed connected oriented surface. */
-static icc_status check_genus(const flood *f, icc_error *err)
-{
-    const iccp_complex *c = f->c;
-    size_t n = 0;
-    for (size_t v = 0; v < c->n_vertices; ++v)
-        n += f->at[v] != NONE;
-    const size_t genus = (2 + c->n_facets / 2 - n) / 2;
-    if (genus == 0)
-        return ICC_OK;
-    return iccp_fail(err, ICC_ERR_TOPOLOGY,
-                     "the surface has genus %zu: it must be a sphere, without handles", genus);
 }
 
 /* Checks the whole shape, or only the facets around each vertex. */
@@ -142,8 +127,6 @@ static icc_status check(const iccp_complex *c, bool whole, const iccp_env *env, 
             c->dim == 3 ? check_vertices(&f, 3, err) : check_vertices(&f, (uint32_t)c->dim, err);
     if (status == ICC_OK && whole)
         status = check_connected(&f, err);
-    if (status == ICC_OK && whole && c->dim == 3)
-        status = check_genus(&f, err);
     iccp_free(memory, f.at);
     iccp_free(memory, f.queue);
     iccp_free(memory, f.reached);
@@ -155,7 +138,7 @@ icc_status iccp_complex_check_vertices(const iccp_complex *c, const iccp_env *en
     return check(c, false, env, err);
 }
 
-icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err)
+icc_status iccp_complex_check_connected(const iccp_complex *c, const iccp_env *env, icc_error *err)
 {
     return check(c, true, env, err);
 }

@@ -35,12 +35,23 @@ void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const dou
     }
 }
 
-icc_status iccp_domain_refuse_features(const icc_domain *domain, const char *what, icc_error *err)
+icc_status iccp_domain_refuse_holes(const icc_domain *domain, const char *what, icc_error *err)
+{
+    if (domain->genus == 0 && domain->n_voids == 0)
+        return ICC_OK;
+    return iccp_fail(err, ICC_ERR_TOPOLOGY,
+                     "%s must be a ball, but this one has %zu handle%s and %zu void%s", what,
+                     domain->genus, domain->genus == 1 ? "" : "s", domain->n_voids,
+                     domain->n_voids == 1 ? "" : "s");
+}
+
+icc_status iccp_domain_require_ball(const icc_domain *domain, const char *what, icc_error *err)
 {
     if (domain->features == NULL)
-        return ICC_OK;
-    return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                     "%s cannot have holes, lines or points inside: only mesh maps can", what);
+        return iccp_domain_refuse_holes(domain, what, err);
+    return iccp_fail(err, ICC_ERR_UNSUPPORTED, "%s cannot have %s inside: only mesh maps can", what,
+                     domain->dim == 2 ? "holes, lines or points"
+                                      : "voids, surfaces, lines or points");
 }
 
 icc_domain *iccp_domain_retain(const icc_domain *domain)

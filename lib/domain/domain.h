@@ -8,8 +8,8 @@
  *   radius adds.
  * - checks: geometry/polygon_check.h checks polygons, features_check.h their features. Both ask
  *   geometry/sweep.h what touches or crosses. Of other boundaries, complex.h pairs
- *   the facets, complex_shape.c finds whether they form a manifold, in space a sphere, and
- *   simplicial.h whether they are flat, or meet.
+ *   the facets, complex_shape.c finds whether they form a manifold, simplicial.h whether they are
+ *   flat, or meet, and closed_surfaces.h which surfaces in space lie in which.
  * - mask: a solid made of lattice cells (mask.h).
  * - mesh: simplices that fill the domain (geometry/simplices.h). Another mesh of the same domain is
  *   a filling.
@@ -100,6 +100,8 @@ struct icc_domain {
     /* Points this close to the boundary are on it; points within its `tolerance` are equal */
     iccp_band band;
     double measure; /* local length, area, volume, ... */
+    /* In space: handles of all boundary surfaces, and number of surfaces besides the outermost */
+    size_t genus, n_voids;
     /* Over local vertices; of a polygon without features: for corners only, without boxes */
     iccp_facet_tree tree;
     /* The polygon in its order, for faster queries. NULL with features and beyond 2-D. */
@@ -127,9 +129,13 @@ void iccp_domain_given(const icc_domain *domain, size_t vertex, double *point);
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point);
 
-/* Returns ICC_ERR_UNSUPPORTED for a domain with features, which only maps of kind mesh support.
- * `what` names the object that does not, such as "a chart". */
-icc_status iccp_domain_refuse_features(const icc_domain *domain, const char *what, icc_error *err);
+/* Returns ICC_ERR_UNSUPPORTED for a domain with features, and ICC_ERR_TOPOLOGY for one with handles
+ * or voids. Only maps of kind mesh support these. `what` names the object that does not, such as
+ * "the domain of a chart". */
+icc_status iccp_domain_require_ball(const icc_domain *domain, const char *what, icc_error *err);
+
+/* Returns ICC_ERR_TOPOLOGY for a domain with handles or voids. */
+icc_status iccp_domain_refuse_holes(const icc_domain *domain, const char *what, icc_error *err);
 
 /* ---- questions ---- */
 

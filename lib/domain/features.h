@@ -1,10 +1,20 @@
-/* Holes, regions, lines and points inside a polygon.
+/* Holes, regions, lines and points inside a polygon or a solid.
  *
- * In a domain with features, the vertices of the outer ring come first, then those of the features
+ * In a polygon with features, the vertices of the outer ring come first, then those of the features
  * in their order. The facets of rings come first: the edges of the outer ring, then those of the
  * holes, then those of the regions. The array domain->facets continues with the segments of lines,
  * and a facet for each point, with both ends at that point. So iccp_domain_facet_point() finds
- * places on all of them. Which places and facets coincide, the network tells (network.h). */
+ * places on all of them. Which places and facets coincide, the network tells (network.h).
+ *
+ * In a solid with features, the vertices of the outer surface come first, then those of the features
+ * in their order. The triangles of the outer surface come first, then those of the holes (voids),
+ * then those of the regions. domain->n_facets counts only those of the boundary, which are without
+ * the regions'; n_places counts all. Triangles are listed as they were given. Lines and points have
+ * no facets; vertex first + i of a line is joined to vertex first + i + 1. There is no network:
+ * nothing coincides. Every vertex is used.
+ *
+ * Regions of a solid have numbers. Number 0 is the part at the outer surface. Number 1 + k is the
+ * inside of the k-th region among the features, without the regions in it. */
 #ifndef ICCP_FEATURES_H
 #define ICCP_FEATURES_H
 
@@ -18,14 +28,23 @@ typedef struct iccp_feature {
     uint32_t first_facet;
     uint32_t n_facets;
     uint32_t rim_of; /* of the circle around a point with a radius: that point; else UINT32_MAX */
+    /* In a solid: number of the region in which it lies; handles of a surface */
+    uint32_t around, genus;
 } iccp_feature;
 
+/* In a solid: the side of a facet where there is no domain. */
+#define ICCP_NO_REGION UINT32_MAX
+
 typedef struct iccp_features {
-    size_t n, n_outer; /* number of features; vertices and facets of the outer ring */
+    size_t n, n_outer;     /* number of features; vertices of the outer ring or surface */
+    size_t n_outer_facets; /* facets of the outer ring or surface */
     size_t n_holes, n_lines, n_points, n_regions;
     size_t n_places; /* number of all facets, including those of lines and points */
     iccp_feature *item;
-    struct iccp_network *network; /* network.h */
+    struct iccp_network *network; /* of a polygon: network.h */
+    /* Of a solid, 2 n_places: numbers of the regions on both sides of a facet. sides[2 f] is in
+     * front, where the corners of facet f run counter-clockwise; sides[2 f + 1] is behind */
+    uint32_t *sides;
 } iccp_features;
 
 /* Returns true for features that are closed polygons. */

@@ -7,7 +7,6 @@
 #include "math/orient.h"
 #include "math/predicates.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -144,57 +143,6 @@ icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, size_t n_ve
 
 /* ----------------------------------------------------------------- volume */
 
-/* Returns the lowest vertex by x, then y, then z. Just beyond it, a plane cuts the surface in a
- * polygon with one corner on each edge from it. */
-static uint32_t lowest_vertex(const iccp_facet_tree *tree)
-{
-    uint32_t lowest = tree->facets[0];
-    for (size_t i = 1; i < 3 * tree->n; ++i) {
-        const double *p = tree->vertices + 3 * (size_t)tree->facets[i];
-        const double *q = tree->vertices + 3 * (size_t)lowest;
-        if (p[0] < q[0] || (p[0] == q[0] && (p[1] < q[1] || (p[1] == q[1] && p[2] < q[2]))))
-            lowest = tree->facets[i];
-    }
-    return lowest;
-}
-
-/* Returns true if the polygon's corner on the edge from v to a precedes that on the edge to b.
- * Compares y / x, then z / x, where x is moved by infinitesimal shares of y and z, as the choice of
- * v implies. */
-static bool corner_before(const double *v, const double *a, const double *b)
-{
-    int sign = iccp_cross_sign(a[1], v[1], b[0], v[0], b[1], v[1], a[0], v[0]);
-    if (sign == 0)
-        sign = iccp_cross_sign(a[1], v[1], b[2], v[2], b[1], v[1], a[2], v[2]);
-    if (sign == 0)
-        sign = iccp_cross_sign(a[2], v[2], b[0], v[0], b[2], v[2], a[0], v[0]);
-    return sign < 0;
-}
-
-/* Returns the polygon's orientation at its first corner. For a simple polygon that is the
- * orientation of the whole. */
-static int surface_orientation(const iccp_facet_tree *tree)
-{
-    const uint32_t lowest = lowest_vertex(tree);
-    const double *v = tree->vertices + 3 * (size_t)lowest, *first = NULL, *next = NULL,
-                 *last = NULL;
-    for (int round = 0; round < 2; ++round)
-        for (size_t i = 0; i < 3 * tree->n; ++i) {
-            if (tree->facets[i] != lowest)
-                continue;
-            const uint32_t *face = tree->facets + i - i % 3;
-            const double *a = tree->vertices + 3 * (size_t)face[(i + 1) % 3];
-            const double *b = tree->vertices + 3 * (size_t)face[(i + 2) % 3];
-            if (round == 0 && (first == NULL || corner_before(v, a, first))) {
-                first = a;
-                next = b;
-            }
-            if (round == 1 && b == first)
-                last = a;
-        }
-    return -iccp_orient3d(v, first, next, last);
-}
-
 icc_status iccp_simplicial_measure(const iccp_facet_tree *tree, int32_t *orientation,
                                    double *volume, icc_error *err)
 {
@@ -208,12 +156,9 @@ icc_status iccp_simplicial_measure(const iccp_facet_tree *tree, int32_t *orienta
         size += fabs(term);
     }
     *orientation = sum > 0 ? 1 : -1;
-    if (dim == 3)
-        *orientation = surface_orientation(tree);
-    else if (!(fabs(sum) > NO_VOLUME * size))
+    if (dim > 3 && !(fabs(sum) > NO_VOLUME * size))
         return iccp_fail(err, ICC_ERR_BOUNDARY,
                          "the volume of the shape is too small for double precision");
-    assert(*orientation != 0);
     *volume = fabs(sum);
     for (size_t k = 2; k <= dim; ++k)
         *volume /= (double)k;

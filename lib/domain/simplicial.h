@@ -28,8 +28,8 @@ icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, size_t n_ve
                                         const iccp_frame *frame, const iccp_env *env,
                                         icc_error *err);
 
-/* Computes the orientation, +1 or -1, and the volume in local units. For a simple surface (dim ==
- * 3) the orientation is exact and the volume accurate to rounding. In higher dimensions, returns
+/* Computes the volume in local units and its sign, the orientation. For surfaces in space the sign
+ * may be wrong if the volume is tiny: closed_surfaces.h knows it. In higher dimensions, returns
  * ICC_ERR_BOUNDARY if doubles cannot distinguish the volume from 0. */
 icc_status iccp_simplicial_measure(const iccp_facet_tree *tree, int32_t *orientation,
                                    double *volume, icc_error *err);

@@ -2,6 +2,7 @@
 #include "domain/simplicial_domain.h"
 
 #include "base/error.h"
+#include "domain/closed_surfaces.h"
 #include "domain/domain_make.h"
 #include "domain/scan_surface.h"
 #include "domain/simplicial.h"
@@ -58,19 +59,91 @@ static icc_status check_complex(iccp_complex *c, const iccp_env *env, icc_error 
     if (status == ICC_OK)
         status = iccp_complex_join(c, env, err);
     if (status == ICC_OK)
-        status = iccp_complex_check_shape(c, env, err);
-    iccp_free(&env->memory, c->across);
+        status = c->dim == 3 ? iccp_complex_check_vertices(c, env, err)
+                             : iccp_complex_check_connected(c, env, err);
     return status;
 }
 
-static icc_status check_geometry(icc_domain *d, const iccp_env *env, icc_error *err)
+/* ---- voids ---- */
+
+/* Refuses a surface that is neither the outermost one, `outer`, nor that of a void. */
+static icc_status check_void(const iccp_surfaces *s, uint32_t outer, uint32_t k, icc_error *err)
+{
+    const iccp_surface *own = &s->item[k];
+    const unsigned long facet = own->first_facet, first = s->item[outer].first_facet;
+    if (own->around == UINT32_MAX)
+        return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)facet,
+                            "the boundary has more than one component: the surface with face %lu "
+                            "lies beside the surface with face %lu",
+                            facet, first);
+    if (own->around != outer)
+        return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)facet,
+                            "the surface with face %lu lies in the void with face %lu", facet,
+                            (unsigned long)s->item[own->around].first_facet);
+    if (own->orientation == s->item[outer].orientation)
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)facet,
+                            "the surface with face %lu lies in that with face %lu and is turned "
+                            "the same way: exchange two vertices of each of its faces to make it "
+                            "a void",
+                            facet, first);
+    return ICC_OK;
+}
+
+static icc_status check_voids(icc_domain *d, const iccp_surfaces *s, icc_error *err)
+{
+    uint32_t outer = 0;
+    icc_status status = ICC_OK;
+    while (s->item[outer].around != UINT32_MAX)
+        ++outer;
+    for (uint32_t k = 0; k < s->n && status == ICC_OK; ++k) {
+        d->genus += iccp_surface_genus(&s->item[k]);
+        if (k != outer)
+            status = check_void(s, outer, k, err);
+    }
+    d->orientation = s->item[outer].orientation;
+    d->n_voids = s->n - 1;
+    return status;
+}
+
+/* Finds the surfaces of a boundary in space, which must be those of a solid and its voids. */
+static icc_status check_surfaces(icc_domain *d, const iccp_complex *c, const iccp_env *env,
+                                 icc_error *err)
+{
+    iccp_surfaces surfaces;
+    icc_status status = iccp_explain(err, iccp_surfaces_create(&surfaces, c, &d->tree, env));
+    if (status != ICC_OK)
+        return status;
+    status = check_voids(d, &surfaces, err);
+    iccp_surfaces_free(&surfaces, &env->memory);
+    return status;
+}
+
+static icc_status check_geometry(icc_domain *d, const iccp_complex *c, const iccp_env *env,
+                                 icc_error *err)
 {
     icc_status status = iccp_simplicial_check_flat(&d->tree, err);
     if (status == ICC_OK && d->dim == 3)
         status = iccp_simplicial_check_simple(&d->tree, d->n_vertices, &d->frame, env, err);
     if (status == ICC_OK)
         status = iccp_simplicial_measure(&d->tree, &d->orientation, &d->measure, err);
-    return status;
+    return status == ICC_OK && d->dim == 3 ? check_surfaces(d, c, env, err) : status;
+}
+
+/* Checks the boundary, whose coordinates are there. */
+static icc_status check_all(icc_domain *d, iccp_complex *c, const iccp_env *env, icc_error *err)
+{
+    if (d->dim > 1) {
+        const icc_status status = check_complex(c, env, err);
+        if (status != ICC_OK)
+            return status;
+    }
+    if (iccp_progress(env, "check", 0.5) != ICC_OK)
+        return iccp_explain(err, ICC_ERR_CANCELLED);
+    iccp_domain_measure_box(d);
+    iccp_facet_tree_create(&d->tree, c->dim, d->vertices, d->n_facets, d->facets, &d->memory);
+    if (d->tree.boxes == NULL)
+        return iccp_fail_memory(err);
+    return d->dim == 1 ? check_interval(d, err) : check_geometry(d, c, env, err);
 }
 
 static icc_status complete(icc_domain *d, const double *given, const iccp_env *env, icc_error *err)
@@ -81,17 +154,10 @@ static icc_status complete(icc_domain *d, const double *given, const iccp_env *e
         status = iccp_simplicial_localise(&d->frame, d->vertices, c.dim, &c, given, env, err);
     if (status == ICC_OK)
         status = keep_given(d, given, err);
-    if (status == ICC_OK && d->dim > 1)
-        status = check_complex(&c, env, err);
-    if (status != ICC_OK)
-        return status;
-    if (iccp_progress(env, "check", 0.5) != ICC_OK)
-        return iccp_explain(err, ICC_ERR_CANCELLED);
-    iccp_domain_measure_box(d);
-    iccp_facet_tree_create(&d->tree, c.dim, d->vertices, d->n_facets, d->facets, &d->memory);
-    if (d->tree.boxes == NULL)
-        return iccp_fail_memory(err);
-    return d->dim == 1 ? check_interval(d, err) : check_geometry(d, env, err);
+    if (status == ICC_OK)
+        status = check_all(d, &c, env, err);
+    iccp_free(&env->memory, c.across);
+    return status;
 }
 
 static icc_status check_counts(size_t dim, size_t n_vertices, size_t n_facets, icc_error *err)

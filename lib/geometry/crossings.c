@@ -134,21 +134,37 @@ size_t iccp_line_crossings(const iccp_facet_tree *tree, size_t axis, const doubl
     return n;
 }
 
-bool iccp_ray_parity(const iccp_facet_tree *tree, size_t axis, bool upwards, const double *p)
+bool iccp_ray_start(iccp_ray *ray, const iccp_facet_tree *tree, const double *p)
 {
-    double box[2 * MAX];
-    iccp_facet_query query;
-    uint32_t facet;
-    bool odd = false;
-    line_box(tree->dim, axis, p, box);
-    box[upwards ? axis : tree->dim + axis] = p[axis];
-    iccp_facet_query_start(&query, tree, box);
-    while (iccp_facet_query_next(&query, &facet)) {
-        const int crossed = iccp_facet_crossed(tree, facet, axis, p);
-        if (crossed != 0)
-            odd ^= is_before(tree, facet, axis, p, crossed) == upwards;
+    const double *whole = tree->boxes + 2 * tree->dim;
+    double shortest = HUGE_VAL, box[2 * MAX];
+    *ray = (iccp_ray){.from = p};
+    for (size_t k = 0; k < tree->dim; ++k) {
+        const double down = p[k] - whole[k], up = whole[tree->dim + k] - p[k];
+        const double way = up < down ? up : down;
+        if (way < 0)
+            return false;
+        if (way < shortest) {
+            shortest = way;
+            ray->axis = k;
+            ray->upwards = up < down;
+        }
     }
-    return odd;
+    line_box(tree->dim, ray->axis, p, box);
+    box[ray->upwards ? ray->axis : tree->dim + ray->axis] = p[ray->axis];
+    iccp_facet_query_start(&ray->query, tree, box);
+    return true;
+}
+
+bool iccp_ray_next(iccp_ray *ray, uint32_t *facet)
+{
+    const iccp_facet_tree *tree = ray->query.tree;
+    while (iccp_facet_query_next(&ray->query, facet)) {
+        const int crossed = iccp_facet_crossed(tree, *facet, ray->axis, ray->from);
+        if (crossed != 0 && is_before(tree, *facet, ray->axis, ray->from, crossed) == ray->upwards)
+            return true;
+    }
+    return false;
 }
 
 /* Tests whether a segment meets a facet. Its ends lie on different sides of the facet's plane, or

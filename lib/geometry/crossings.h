@@ -24,8 +24,21 @@ int iccp_facet_crossed(const iccp_facet_tree *tree, uint32_t facet, size_t axis,
 size_t iccp_line_crossings(const iccp_facet_tree *tree, size_t axis, const double *p,
                            size_t capacity, iccp_line_crossing *crossings);
 
-/* Returns true if the ray from p to infinity crosses an odd number of facets. */
-bool iccp_ray_parity(const iccp_facet_tree *tree, size_t axis, bool upwards, const double *p);
+/* A ray from a point to infinity. */
+typedef struct iccp_ray {
+    iccp_facet_query query;
+    const double *from; /* borrowed */
+    size_t axis;        /* it runs along this axis */
+    bool upwards;       /* towards greater coordinates */
+} iccp_ray;
+
+/* Starts the ray that leaves the box of the whole boundary on the shortest way. Returns false if
+ * the point lies outside that box. The tree has boxes. */
+bool iccp_ray_start(iccp_ray *ray, const iccp_facet_tree *tree, const double *p);
+
+/* Finds the next facet that the ray crosses, in the order of the tree. A point that lies on no
+ * facet is inside a closed boundary if the number of crossings is odd. */
+bool iccp_ray_next(iccp_ray *ray, uint32_t *facet);
 
 /* Tests whether a closed segment meets a facet. Returns the position along the segment as a share.
  * A segment that runs within a facet does not meet it. */

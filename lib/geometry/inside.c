@@ -57,34 +57,17 @@ static bool on_boundary(const iccp_facet_tree *tree, const iccp_band *band, cons
     return found;
 }
 
-/* Finds the axis and direction in which p is nearest to a side of the box. Returns false if p lies
- * outside the box. */
-static bool way_out(const iccp_facet_tree *tree, const double *p, size_t *axis, bool *upwards)
-{
-    const double *box = tree->boxes + 2 * tree->dim;
-    double shortest = HUGE_VAL;
-    for (size_t k = 0; k < tree->dim; ++k) {
-        const double down = p[k] - box[k], up = box[tree->dim + k] - p[k];
-        const double way = up < down ? up : down;
-        if (way < 0)
-            return false;
-        if (way < shortest) {
-            shortest = way;
-            *axis = k;
-            *upwards = up < down;
-        }
-    }
-    return true;
-}
-
 int32_t iccp_inside_find(const iccp_facet_tree *tree, const iccp_band *band, const double *p,
                          uint32_t *facet, double *bary)
 {
-    size_t axis = 0;
-    bool upwards = true;
+    iccp_ray ray;
+    uint32_t crossed;
+    bool odd = false;
     if (on_boundary(tree, band, p, facet, bary))
         return ICC_BOUNDARY;
-    if (!way_out(tree, p, &axis, &upwards))
+    if (!iccp_ray_start(&ray, tree, p))
         return ICC_OUTSIDE;
-    return iccp_ray_parity(tree, axis, upwards, p) ? ICC_INSIDE : ICC_OUTSIDE;
+    while (iccp_ray_next(&ray, &crossed))
+        odd = !odd;
+    return odd ? ICC_INSIDE : ICC_OUTSIDE;
 }

@@ -45,6 +45,10 @@ typedef struct iccp_simplices {
 
 void iccp_simplices_free(iccp_simplices *mesh);
 
+/* Computes the place of a point on a line from the local coordinates of a and b, in space. It is
+ * exact at both ends and rounded between. */
+void iccp_on_line_place(const double *a, const double *b, double share, double *place);
+
 /* Copies a mesh without the caller's numbers. */
 icc_status iccp_simplices_copy(iccp_simplices **out, const iccp_simplices *mesh,
                                const iccp_memory *memory);
@@ -82,8 +86,8 @@ icc_status iccp_simplices_join(iccp_simplices *mesh, size_t n_facets, const uint
 /* Lists the points of a side as seen from beyond it; for the boundary, from outside. */
 void iccp_simplices_side(const iccp_simplices *mesh, size_t side, uint32_t *points);
 
-/* Returns ICC_ERR_TOPOLOGY unless the simplices of a joined mesh are connected across facets and
- * have Euler characteristic 1. Every point must belong to a simplex. */
+/* Returns ICC_ERR_TOPOLOGY unless the simplices of a joined mesh are connected across facets and,
+ * but in space, have Euler characteristic 1. Every point must belong to a simplex. */
 icc_status iccp_simplices_check_shape(const iccp_simplices *mesh, icc_error *err);
 
 #endif

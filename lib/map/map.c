@@ -253,6 +253,11 @@ static icc_status check_request(const icc_domain *source, const icc_map_options 
                          "a mesh map of dimension %ld is made without charts, so there is no "
                          "method or maximum to choose",
                          (long)source->dim);
+    if (source->dim == 3) {
+        const icc_status status = iccp_domain_require_ball(source, "the domain of a map", err);
+        if (status != ICC_OK)
+            return status;
+    }
     if (source->features == NULL)
         return options->n_ties == 0
                    ? ICC_OK

@@ -35,7 +35,11 @@ static icc_status check(const icc_domain *domain, int32_t side, icc_error *err)
         iccp_fail(err, ICC_ERR_UNSUPPORTED, "a domain with a mesh cannot be matched");
         return iccp_fail_side(err, ICC_ERR_UNSUPPORTED, side);
     }
-    return ICC_OK;
+    static const char what[] = "a solid to be matched";
+    if (domain->dim == 2)
+        return ICC_OK;
+    const icc_status status = iccp_domain_require_ball(domain, what, err);
+    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, side);
 }
 
 static icc_status check_both(const icc_domain *source, const icc_domain *target, icc_error *err)

@@ -49,7 +49,7 @@ static icc_status create(size_t n, icc_chart **out, const icc_domain *const *dom
         has_mesh = has_mesh && domain[k]->mesh != NULL;
     }
     for (size_t k = 0; k < n && status == ICC_OK; ++k) {
-        status = iccp_domain_refuse_features(domain[k], CHART_DOMAIN, err);
+        status = iccp_domain_require_ball(domain[k], CHART_DOMAIN, err);
         if (status != ICC_OK && n > 1)
             return iccp_fail_side(err, status, (int32_t)k + 1);
     }

@@ -187,7 +187,7 @@ AT(icc_env, parallel_for, 48);
 AT(icc_env, threads, 56);
 AT(icc_env, load_limit, 64);
 
-SIZE(icc_domain_info, 184);
+SIZE(icc_domain_info, 232);
 AT(icc_domain_info, size, 0);
 AT(icc_domain_info, dim, 8);
 AT(icc_domain_info, orientation, 12);
@@ -202,6 +202,12 @@ AT(icc_domain_info, n_mesh_simplices, 152);
 AT(icc_domain_info, n_junctions, 160);
 AT(icc_domain_info, n_pieces, 168);
 AT(icc_domain_info, n_faces, 176);
+AT(icc_domain_info, n_voids, 184);
+AT(icc_domain_info, genus, 192);
+AT(icc_domain_info, n_holes, 200);
+AT(icc_domain_info, n_lines, 208);
+AT(icc_domain_info, n_points, 216);
+AT(icc_domain_info, n_regions, 224);
 
 SIZE(icc_match_options, 48);
 AT(icc_match_options, size, 0);

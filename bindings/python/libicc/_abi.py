@@ -17,7 +17,7 @@ MAX_DIM = 6
 STRUCTS = """
 error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32 load_limit:u64
-domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64 n_features:size n_mesh_vertices:size n_mesh_simplices:size n_junctions:size n_pieces:size n_faces:size
+domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64 n_features:size n_mesh_vertices:size n_mesh_simplices:size n_junctions:size n_pieces:size n_faces:size n_voids:size genus:size n_holes:size n_lines:size n_points:size n_regions:size
 feature kind:i32 n_vertices:size vertices:ptr radius:f64 n_facets:size facets:ptr
 mesh dim:i32 n_vertices:size vertices:ptr n_cells:size cells:ptr offsets:ptr types:ptr regions:ptr
 fill_options ratio:f64 max_points:u64

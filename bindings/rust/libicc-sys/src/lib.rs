@@ -285,6 +285,18 @@ pub struct icc_domain_info {
     pub n_pieces: usize,
     /// with features: parts that rings and lines divide the domain into
     pub n_faces: usize,
+    /// 3-D: closed surfaces of the boundary besides the outermost one
+    pub n_voids: usize,
+    /// 3-D: handles of all surfaces of the boundary together
+    pub genus: usize,
+    /// features of kind `ICC_FEATURE_HOLE`
+    pub n_holes: usize,
+    /// features of kind `ICC_FEATURE_LINE`, with the circles around points
+    pub n_lines: usize,
+    /// features of kind `ICC_FEATURE_POINT`
+    pub n_points: usize,
+    /// features of kind `ICC_FEATURE_REGION`
+    pub n_regions: usize,
 }
 sized!(icc_domain_info);
 
@@ -1186,8 +1198,12 @@ extern "C" {
     /// - no face has area 0,
     /// - each edge belongs to two faces, which run along it in opposite directions,
     /// - the faces at each vertex form one cycle,
-    /// - the surface is one piece, so there are no inner voids, and has no handles (genus 0),
     /// - the surface does not meet itself: two faces share only their common vertices and edges.
+    ///
+    /// The surface may have handles, and the solid may have voids. A void is a closed surface inside the
+    /// outer one that is turned the other way. libicc checks exactly that there is one outer surface, and
+    /// that nothing lies in a void. Handles and voids are counted in `icc_domain_info.genus` and
+    /// `icc_domain_info.n_voids`. Charts, grids, kernels and matches need a ball, without either.
     ///
     /// *4-D to 6-D*: a closed boundary of simplices, dim vertex indices each. libicc checks that
     ///
@@ -1218,7 +1234,7 @@ extern "C" {
     /// Returns `ICC_OK`, or
     ///
     /// - `ICC_ERR_BOUNDARY` if the shape is not valid
-    /// - `ICC_ERR_TOPOLOGY` if it has several pieces, an inner void or handles
+    /// - `ICC_ERR_TOPOLOGY` if it has several pieces, or something lies in a void
     /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     ///
     /// Cost: O(n log n) time and O(n) memory for ordinary shapes, about 50 ns a vertex in 2-D and 1 us a
@@ -1354,7 +1370,8 @@ extern "C" {
     /// - The boundary passes the checks of `icc_domain_create()`.
     /// - Every simplex has a volume.
     /// - A facet belongs to at most two simplices, which lie on opposite sides of it.
-    /// - The mesh is connected, and its Euler characteristic is 1.
+    /// - The mesh is connected. In 2-D and beyond 3-D its Euler characteristic is 1. In 3-D it may have
+    ///   handles and voids, as for `icc_domain_create()`.
     ///
     /// So the simplices fill the domain and do not overlap. Vertices that belong to no simplex are ignored.
     ///
@@ -1370,7 +1387,7 @@ extern "C" {
     ///
     /// - `ICC_ERR_BOUNDARY` if a simplex is flat or lists a vertex twice or one that does not exist; if three
     ///   simplices share a facet, or two lie on one side of it; or if `facets` are not the boundary
-    /// - `ICC_ERR_TOPOLOGY` if the mesh has several pieces or holes
+    /// - `ICC_ERR_TOPOLOGY` if the mesh has several pieces, or holes other than in 3-D
     /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
     ///
     /// Cost: O(n) time and memory in addition to `icc_domain_create()`, 0.5 us a tetrahedron.
