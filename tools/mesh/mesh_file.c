@@ -94,6 +94,9 @@ void mesh_free(mesh_file *m)
     free(m->kinds);
     free(m->node_starts);
     free(m->nodes);
+    free(m->parts);
+    free(m->line_starts);
+    free(m->line_nodes);
     *m = (mesh_file){0};
 }
 

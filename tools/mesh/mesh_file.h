@@ -52,6 +52,14 @@ typedef struct mesh_place {
     double out[12], in[12]; /* affine_map.h: from the file to the scene, and back */
 } mesh_place;
 
+/* An object or a group of OBJ, up to the next one. */
+typedef struct mesh_part {
+    const char *name; /* in the text */
+    size_t n_name;
+    bool is_group; /* by `g`, not by `o` */
+    size_t first_triangle, first_line;
+} mesh_part;
+
 typedef struct mesh_file {
     const char *text; /* borrowed, or `own` */
     size_t n_text;
@@ -90,6 +98,14 @@ typedef struct mesh_file {
     size_t *node_starts;
     uint32_t *nodes;
     size_t room_kinds, room_node_starts, room_nodes;
+    size_t n_parts; /* of OBJ */
+    mesh_part *parts;
+    /* Polylines of OBJ. Number i has the vertices line_nodes[line_starts[i] .. line_starts[i + 1]).
+     * A line that begins where the one before it ends continues that one. */
+    size_t n_lines;
+    size_t *line_starts;
+    uint32_t *line_nodes;
+    size_t room_parts, room_line_starts, room_line_nodes;
     size_t room_points, room_spans, room_triangles, room_triangle_lines, room_tetrahedra;
     size_t room_normals;
 } mesh_file;

@@ -1,4 +1,4 @@
-/* Wavefront OBJ: lines that begin with v, vn and f. */
+/* Wavefront OBJ: lines that begin with v, vn, f, l, o and g. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -46,8 +46,9 @@ static void note_normal(lines *r, uint32_t vertex)
     of->uses[2 * of->n_uses++ + 1] = vertex;
 }
 
-/* Reads a corner of a face: v, v/vt, v//vn or v/vt/vn, counted from 1, or from -1 backwards. */
-static bool read_corner(lines *r, uint32_t *vertex)
+/* Reads a corner of a face or line: v, v/vt, v//vn or v/vt/vn, counted from 1, or from -1
+ * backwards. */
+static bool read_corner(lines *r, const char *what, uint32_t *vertex)
 {
     double index;
     char shown[32];
@@ -55,10 +56,10 @@ static bool read_corner(lines *r, uint32_t *vertex)
     double n = (double)r->mesh->n_vertices;
     if (number_read(&r->at, &index) != NUMBER_OK || strchr("/ \t\r\n", *r->at) == NULL ||
         floor(index) != index)
-        return spoilt(r->wrong, r->line, "'%s' is not a corner of a face", quoted(shown, word));
+        return spoilt(r->wrong, r->line, "'%s' is not a corner of a %s", quoted(shown, word), what);
     if (!(fabs(index) >= 1 && fabs(index) <= n))
-        return spoilt(r->wrong, r->line, "the face has the vertex %.17g; there are %.0f so far%s",
-                      index, n, fabs(index) < 1 ? ", counted from 1" : "");
+        return spoilt(r->wrong, r->line, "the %s has the vertex %.17g; there are %.0f so far%s",
+                      what, index, n, fabs(index) < 1 ? ", counted from 1" : "");
     *vertex = (uint32_t)(index > 0 ? index - 1 : n + index);
     note_normal(r, *vertex);
     r->at += strcspn(r->at, " \t\r\n");
@@ -70,22 +71,87 @@ static bool read_face(lines *r)
     uint32_t vertex = 0;
     lines_begin_face(r);
     for (lines_skip_blanks(r); r->at < r->end; lines_skip_blanks(r)) {
-        if (!read_corner(r, &vertex))
+        if (!read_corner(r, "face", &vertex))
             return false;
         lines_corner(r, vertex);
     }
     return lines_end_face(r);
 }
 
+static void add_line_node(mesh_file *m, uint32_t vertex)
+{
+    size_t n = m->line_starts[m->n_lines];
+    m->line_nodes = grow(m->line_nodes, &m->room_line_nodes, n + 1, sizeof *m->line_nodes);
+    m->line_nodes[n] = vertex;
+    m->line_starts[m->n_lines]++;
+}
+
+/* True if the line before ends at a vertex and belongs to the same part. */
+static bool continues(const mesh_file *m, uint32_t vertex)
+{
+    bool has_line = m->n_lines > (m->n_parts > 0 ? m->parts[m->n_parts - 1].first_line : 0);
+    return has_line && m->line_nodes[m->line_starts[m->n_lines] - 1] == vertex;
+}
+
+static bool read_line(lines *r)
+{
+    mesh_file *m = r->mesh;
+    uint32_t vertex = 0;
+    size_t n = 0;
+    for (lines_skip_blanks(r); r->at < r->end; lines_skip_blanks(r), n++) {
+        if (!read_corner(r, "line", &vertex))
+            return false;
+        if (n == 0 && continues(m, vertex))
+            continue;
+        if (n == 0) {
+            m->line_starts =
+                grow(m->line_starts, &m->room_line_starts, m->n_lines + 2, sizeof *m->line_starts);
+            m->line_starts[0] = 0;
+            m->line_starts[m->n_lines + 1] = m->line_starts[m->n_lines];
+            m->n_lines++;
+        }
+        add_line_node(m, vertex);
+    }
+    return n >= 2 ||
+           spoilt(r->wrong, r->line, "the line has %zu %s", n, n == 1 ? "vertex" : "vertices");
+}
+
+/* Begins a part. Its name is the rest of the line. */
+static void begin_part(lines *r, bool is_group)
+{
+    mesh_file *m = r->mesh;
+    const char *end = r->end;
+    lines_skip_blanks(r);
+    while (end > r->at && strchr(" \t\r", end[-1]) != NULL)
+        end--;
+    m->parts = grow(m->parts, &m->room_parts, m->n_parts + 1, sizeof *m->parts);
+    m->parts[m->n_parts++] = (mesh_part){.name = r->at,
+                                         .n_name = (size_t)(end - r->at),
+                                         .is_group = is_group,
+                                         .first_triangle = m->n_triangles,
+                                         .first_line = m->n_lines};
+}
+
 bool mesh_read_obj(lines *r)
 {
     r->mesh->vertex_normals.n_spans = 1;
     do {
-        bool vertex = lines_take(r, "v"), face = !vertex && lines_take(r, "f");
-        if ((vertex && !lines_vertex(r)) || (face && !read_face(r)))
-            return false;
-        if (!vertex && !face && lines_take(r, "vn"))
+        if (lines_take(r, "v")) {
+            if (!lines_vertex(r))
+                return false;
+        } else if (lines_take(r, "f")) {
+            if (!read_face(r))
+                return false;
+        } else if (lines_take(r, "l")) {
+            if (!read_line(r))
+                return false;
+        } else if (lines_take(r, "vn")) {
             read_normal(r);
+        } else if (lines_take(r, "o")) {
+            begin_part(r, false);
+        } else if (lines_take(r, "g")) {
+            begin_part(r, true);
+        }
     } while (lines_next(r));
     return true;
 }

@@ -18,8 +18,7 @@
  *   missed. For one handle, no difference can be so large if the shortest loops have up to 2^15
  *   edges: two polygons of that many edges cross less than 2^30 times in a projection. So numbers
  *   of turns are less than 2^29, and differences are products of two sums of two of them.
- * - Lines and points take no part. A line that is closed can be linked with a handle or with
- *   another line, which is not noticed.
+ * - Lines and points take no part: a line that does not close can be moved through handles.
  * - A solid with spheres inside has two classes of maps, because each sphere can be turned once by
  *   360 degrees on its way, but not undone: an even number of turns can. (The rotations in space
  *   are the unit quaternions up to sign.) Either class has the same images of all surfaces. So a
