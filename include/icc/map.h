@@ -139,28 +139,33 @@ ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_ver
 
 /** Kinds of features: icc_feature::kind. */
 enum {
-    ICC_FEATURE_HOLE = 1, /**< a simple polygon whose inside is not part of the domain */
-    /** a polyline of 2 or more vertices; with two vertices, a bone. It is closed if the last vertex
-     *  repeats the first one */
+    /** a simple polygon whose inside is not part of the domain; in 3-D a void, which is a closed
+     *  surface of triangles */
+    ICC_FEATURE_HOLE = 1,
+    /** a polyline of 2 or more vertices; with two vertices, a bone. In 2-D it is closed if the last
+     *  vertex repeats the first one */
     ICC_FEATURE_LINE = 2,
     ICC_FEATURE_POINT = 3, /**< one vertex */
     /** a simple polygon whose inside is part of the domain: for example a county, an island in a
-     *  hole, or a polygon beside the outer ring */
+     *  hole, or a polygon beside the outer ring. In 3-D a closed surface of triangles inside the
+     *  outer one, with the domain on both sides */
     ICC_FEATURE_REGION = 4
 };
 
-/** A hole, line, point or region of a domain of the plane. A map takes it to the feature of the
- *  same number in the other domain: vertex to vertex, and edge to edge linearly. */
+/** A hole, line, point or region of a domain. A map takes it to the feature of the same number in
+ *  the other domain: vertex to vertex, and edge to edge or triangle to triangle linearly. */
 typedef struct icc_feature {
     /** set by the caller: `sizeof(icc_feature)`, the same for all elements of an array */
     size_t size;
-    int32_t kind;           /**< `ICC_FEATURE_*` */
-    size_t n_vertices;      /**< hole, region: at least 3; line: at least 2; point: 1 */
-    const double *vertices; /**< 2 n_vertices coordinates */
-    /** point: its size, if above 0, see icc_domain_create_features(). Otherwise 0 */
+    int32_t kind; /**< `ICC_FEATURE_*` */
+    /** hole, region: at least 3, in 3-D at least 4; line: at least 2; point: 1 */
+    size_t n_vertices;
+    const double *vertices; /**< n_vertices times 2 coordinates, in 3-D times 3 */
+    /** 2-D, point: its size, if above 0, see icc_domain_create_features(). Otherwise 0 */
     double radius;
-    size_t n_facets;        /**< reserved: 0 */
-    const uint32_t *facets; /**< reserved: NULL */
+    size_t n_facets; /**< 3-D, hole or region: number of its triangles. Otherwise 0 */
+    /** 3-D, hole or region: 3 n_facets numbers of its own vertices. Otherwise NULL */
+    const uint32_t *facets;
 } icc_feature;
 
 /**
@@ -217,6 +222,55 @@ typedef struct icc_feature {
 ICC_API icc_status icc_domain_create_features(icc_domain **out, size_t n_outer, const double *outer,
                                               size_t n_features, const icc_feature *features,
                                               const icc_env *env, icc_error *err);
+
+/**
+ * Makes a solid in 3-D with features inside: voids, inner surfaces, lines and points. You choose
+ * where a map takes them.
+ *
+ * The outer surface is that of icc_domain_create(). It may have handles, and voids of its own. Each
+ * feature of kind ::ICC_FEATURE_HOLE or ::ICC_FEATURE_REGION is one closed surface, which may have
+ * handles and may be turned either way. A hole is a void: its inside is not part of the domain. A
+ * region divides the domain. Regions may contain voids and other regions. Voids are empty. A line
+ * is a polyline that does not close.
+ *
+ * The vertices of the domain are those of the outer surface, followed by those of the features in
+ * their order. Its facets are the triangles of the outer surface, then those of the holes, then
+ * those of the regions.
+ *
+ * libicc checks exactly, with the coordinates as given, that
+ * - every surface passes the checks of icc_domain_create(), and every vertex is used
+ * - features touch neither themselves, nor one another, nor the outer surface
+ * - everything lies inside the outer surface, and nothing lies in a void.
+ *
+ * For icc_domain_locate(), points in a void are outside. Points on an inner surface, on a line or
+ * at a point are inside. Without features the result is that of icc_domain_create().
+ *
+ * @param[out] out   the domain; owned by the caller, see icc_domain_free()
+ * @param n_vertices vertices of the outer surface, at least 4
+ * @param vertices   3 n_vertices coordinates
+ * @param n_facets   triangles of the outer surface, at least 4
+ * @param facets     3 n_facets vertex numbers
+ * @param n_features number of features
+ * @param features   n_features of them; they are copied
+ * @param env        may be NULL
+ * @param err        may be NULL. If the outer surface is at fault, `index` is its vertex or facet.
+ *                   Otherwise `index` is the feature (::ICC_ITEM_FEATURE), and the message names
+ *                   its vertex or face and any other feature involved, in their own numbers
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_OUTSIDE if a feature lies outside the outer surface or in a void, or touches the
+ *   outer surface
+ * - ::ICC_ERR_BOUNDARY if a surface is not valid, or features meet themselves or one another
+ * - ::ICC_ERR_TOPOLOGY if the outer surface has several pieces side by side or something in its
+ *   voids, or a feature has several pieces
+ * - ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
+ *
+ * Cost: O(n log n) time and O(n) memory for n vertices in all.
+ */
+ICC_API icc_status icc_domain_create_solid(icc_domain **out, size_t n_vertices,
+                                           const double *vertices, size_t n_facets,
+                                           const uint32_t *facets, size_t n_features,
+                                           const icc_feature *features, const icc_env *env,
+                                           icc_error *err);
 
 /**
  * Makes a domain from a mask of cells, such as pixels or voxels. Cell (i_0, i_1, ..) covers [i_0,
@@ -390,13 +444,18 @@ ICC_API icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info
 typedef struct icc_feature_info {
     size_t size;  /**< set by the caller: `sizeof(icc_feature_info)` */
     int32_t kind; /**< `ICC_FEATURE_*` */
-    /** hole or region: +1 if it is listed counter-clockwise (y upwards), -1 if clockwise; else 0 */
+    /** hole or region: +1 if it is listed counter-clockwise (y upwards; in 3-D as seen from outside
+     *  it), -1 if clockwise; else 0 */
     int32_t orientation;
     size_t first_vertex; /**< number of its first vertex in the domain; the others follow */
     size_t n_vertices;   /**< number of its vertices */
-    /** hole or region: number of the facet from its first vertex to the next. It has as many facets
-     *  as vertices. Else 0 */
+    /** hole or region: number of its first facet; in 2-D the one from its first vertex to the next.
+     *  Else 0 */
     size_t first_facet;
+    size_t n_facets; /**< hole or region: number of its facets. Else 0 */
+    size_t genus;    /**< 3-D, hole or region: number of its handles. Else 0 */
+    /** 3-D: the region in which it lies, as icc_domain_get_regions() numbers them; else 0 */
+    size_t around;
 } icc_feature_info;
 
 /**
@@ -424,6 +483,20 @@ ICC_API icc_status icc_domain_get_feature(const icc_domain *domain, size_t featu
  * - ::ICC_ERR_UNSUPPORTED if the domain has no mesh
  */
 ICC_API icc_status icc_domain_get_mesh(const icc_domain *domain, icc_mesh *mesh);
+
+/**
+ * Copies the region of each cell of the mesh, for a solid that icc_domain_fill() filled. Regions
+ * are numbered like the features of kind ::ICC_FEATURE_REGION, starting at 1. Cells of region k lie
+ * within the k-th such surface, but not within a region inside it. Cells within no such surface
+ * have number 0.
+ *
+ * @param domain       a domain with a mesh: icc_domain_info::n_mesh_simplices is not 0
+ * @param[out] regions room for n_mesh_simplices numbers
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_ARGUMENT if `domain` or `regions` is NULL
+ * - ::ICC_ERR_UNSUPPORTED if the domain has no mesh
+ */
+ICC_API icc_status icc_domain_get_regions(const icc_domain *domain, uint32_t *regions);
 
 /**
  * Copies the boundary as it was given. If the domain has features, the vertices include those of

@@ -24,13 +24,18 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
     full.dim = domain->dim;
     full.orientation = domain->orientation;
     full.n_vertices = domain->n_vertices;
-    full.n_facets = domain->n_facets;
+    full.n_facets = iccp_domain_n_listed(domain);
     full.n_features = domain->features != NULL ? domain->features->n : 0;
     full.n_mesh_vertices = domain->mesh != NULL ? domain->mesh->n_points : 0;
-    if (domain->features != NULL) {
+    if (domain->features != NULL && domain->features->in_space) {
+        full.n_pieces = 1 + domain->n_voids - domain->features->n_holes + domain->features->n;
+        full.n_faces = 1 + domain->features->n_regions;
+    } else if (domain->features != NULL) {
         full.n_junctions = domain->features->network->n_junctions;
         full.n_pieces = domain->features->network->n_pieces;
         full.n_faces = domain->features->network->n_faces;
+    }
+    if (domain->features != NULL) {
         full.n_holes = domain->features->n_holes;
         full.n_lines = domain->features->n_lines;
         full.n_points = domain->features->n_points;
@@ -60,6 +65,9 @@ icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature, icc_
     full.first_vertex = item->first;
     full.n_vertices = item->n;
     full.first_facet = iccp_feature_is_ring(item->kind) ? item->first_facet : 0;
+    full.n_facets = iccp_feature_is_ring(item->kind) ? item->n_facets : 0;
+    full.genus = item->genus;
+    full.around = item->around;
     return iccp_write_struct(info, &full, sizeof full, "icc_feature_info", NULL);
 }
 
@@ -73,7 +81,7 @@ icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, u
         for (size_t v = 0; v < domain->n_vertices; ++v)
             iccp_domain_given(domain, v, vertices + dim * v);
     if (facets != NULL)
-        memcpy(facets, domain->facets, domain->n_facets * dim * sizeof *facets);
+        memcpy(facets, domain->facets, iccp_domain_n_listed(domain) * dim * sizeof *facets);
     return ICC_OK;
 }
 
@@ -100,6 +108,18 @@ icc_status icc_domain_get_mesh(const icc_domain *domain, icc_mesh *mesh)
                                vertices + dim * v);
     if (cells != NULL)
         memcpy(cells, own->corners, own->n_simplices * (dim + 1) * sizeof *cells);
+    return ICC_OK;
+}
+
+icc_status icc_domain_get_regions(const icc_domain *domain, uint32_t *regions)
+{
+    ICCP_ENTER;
+    if (domain == NULL || regions == NULL)
+        return ICC_ERR_ARGUMENT;
+    if (domain->mesh == NULL)
+        return ICC_ERR_UNSUPPORTED;
+    for (size_t s = 0; s < domain->mesh->n_simplices; ++s)
+        regions[s] = domain->mesh->region != NULL ? domain->mesh->region[s] : 0;
     return ICC_OK;
 }
 

@@ -5,8 +5,8 @@
  * innermost, and one ray finds the innermost. */
 #include "domain/closed_surfaces.h"
 
+#include "base/error.h"
 #include "geometry/crossings.h"
-#include "geometry/inside.h"
 #include "math/predicates.h"
 
 #include <string.h>
@@ -20,8 +20,9 @@ static const double *point(const iccp_facet_tree *tree, uint32_t v)
     return tree->vertices + 3 * (size_t)v;
 }
 
-static bool is_lower(const double *p, const double *q)
+bool iccp_surface_is_lower(const iccp_facet_tree *tree, uint32_t v, uint32_t w)
 {
+    const double *p = point(tree, v), *q = point(tree, w);
     return p[0] < q[0] || (p[0] == q[0] && (p[1] < q[1] || (p[1] == q[1] && p[2] < q[2])));
 }
 
@@ -58,7 +59,7 @@ static void describe(iccp_surfaces *s, const iccp_complex *c, const iccp_facet_t
             const uint32_t v = c->facets[3 * (size_t)f + i];
             surface->n_vertices += !counted[v];
             counted[v] = true;
-            if (is_lower(point(tree, v), point(tree, surface->lowest)))
+            if (iccp_surface_is_lower(tree, v, surface->lowest))
                 surface->lowest = v;
         }
     }
@@ -136,7 +137,7 @@ uint32_t iccp_surfaces_around(iccp_surfaces *s, const iccp_facet_tree *tree, con
         const uint32_t k = s->crossed[i];
         if (s->state[k] < 0 && k != except &&
             (innermost == NONE ||
-             is_lower(point(tree, s->item[innermost].lowest), point(tree, s->item[k].lowest))))
+             iccp_surface_is_lower(tree, s->item[innermost].lowest, s->item[k].lowest)))
             innermost = k;
         s->state[k] = 0;
     }
@@ -199,4 +200,26 @@ icc_status iccp_surfaces_create(iccp_surfaces *s, const iccp_complex *c,
     if (status != ICC_OK)
         iccp_surfaces_free(s, memory);
     return status;
+}
+
+icc_status iccp_surfaces_check_void(const iccp_surfaces *s, uint32_t outer, uint32_t k,
+                                    uint32_t around, icc_error *err)
+{
+    const unsigned long facet = s->item[k].first_facet, first = s->item[outer].first_facet;
+    if (around == NONE)
+        return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)facet,
+                            "the boundary has more than one component: the surface with face %lu "
+                            "lies beside the surface with face %lu",
+                            facet, first);
+    if (around != outer)
+        return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)facet,
+                            "the surface with face %lu lies in the void with face %lu", facet,
+                            (unsigned long)s->item[around].first_facet);
+    if (s->item[k].orientation == s->item[outer].orientation)
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)facet,
+                            "the surface with face %lu lies in that with face %lu and is turned "
+                            "the same way: exchange two vertices of each of its faces to make it "
+                            "a void",
+                            facet, first);
+    return ICC_OK;
 }

@@ -31,6 +31,9 @@ icc_status iccp_surfaces_create(iccp_surfaces *surfaces, const iccp_complex *c,
                                 const iccp_facet_tree *tree, const iccp_env *env);
 void iccp_surfaces_free(iccp_surfaces *surfaces, const iccp_memory *memory);
 
+/* Returns true if vertex v comes before w by x, then y, then z. */
+bool iccp_surface_is_lower(const iccp_facet_tree *tree, uint32_t v, uint32_t w);
+
 /* Number of handles: L. Euler, V - E + F = 2 - 2 genus. */
 static inline size_t iccp_surface_genus(const iccp_surface *surface)
 {
@@ -41,5 +44,10 @@ static inline size_t iccp_surface_genus(const iccp_surface *surface)
  * UINT32_MAX if there is none. */
 uint32_t iccp_surfaces_around(iccp_surfaces *surfaces, const iccp_facet_tree *tree,
                               const double *point, uint32_t except);
+
+/* Refuses surface k if it is not that of a void in the surface `outer`. `around` is the next
+ * surface around it that counts. */
+icc_status iccp_surfaces_check_void(const iccp_surfaces *surfaces, uint32_t outer, uint32_t k,
+                                    uint32_t around, icc_error *err);
 
 #endif

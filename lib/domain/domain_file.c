@@ -5,6 +5,7 @@
 #include "domain/mask.h"
 #include "domain/mask_boundary.h"
 #include "domain/mesh_domain.h"
+#include "domain/solid_file.h"
 #include "math/orient.h"
 
 #include <math.h>
@@ -234,7 +235,9 @@ static icc_status visit_kind(iccp_blob *b, int32_t kind, icc_domain **domain, in
     if (kind == BOUNDARY)
         return iccp_boundary_visit(b, domain, dim, env);
     if (kind == FEATURES)
-        return dim == 2 ? iccp_features_visit(b, domain, env) : ICC_ERR_FORMAT;
+        return dim == 2   ? iccp_features_visit(b, domain, env)
+               : dim == 3 ? iccp_solid_visit(b, domain, env)
+                          : ICC_ERR_FORMAT;
     if (b->reads)
         return kind == MASK ? read_mask(b, domain, dim, env) : read_mesh(b, domain, dim, env);
     if (kind == MASK)

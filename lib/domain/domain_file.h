@@ -16,7 +16,7 @@ icc_status iccp_boundary_visit(iccp_blob *b, icc_domain **domain, int32_t dim, c
  * points have the numbers that the domain gave them, not the first caller's. */
 icc_status iccp_domain_visit(iccp_blob *b, icc_domain **domain, const iccp_env *env);
 
-/* Any domain, including polygons with features. */
+/* Any domain, including polygons and solids with features. */
 icc_status iccp_domain_visit_any(iccp_blob *b, icc_domain **domain, const iccp_env *env);
 
 /* Another mesh of a domain, or NULL. Its first points are the domain's vertices, and it does not

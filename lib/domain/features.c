@@ -60,7 +60,7 @@ static icc_status lay_out(icc_domain *d, size_t n_outer, size_t n, const icc_fea
     if (features == NULL)
         return iccp_fail_memory(err);
     features->n = n;
-    features->n_outer = n_outer;
+    features->n_outer = features->n_outer_facets = n_outer;
     features->item = iccp_alloc_zero(&d->memory, n, sizeof *features->item);
     if (features->item == NULL)
         return iccp_fail_memory(err);
@@ -130,7 +130,7 @@ static icc_status localise(icc_domain *d, icc_error *err)
         const iccp_feature *feature = &features->item[f];
         if (iccp_polygon_check_finite(feature->n, d->given + 2 * (size_t)feature->first, &own) !=
             ICC_OK)
-            return iccp_features_blame(err, &own, f, feature->kind);
+            return iccp_features_blame(err, &own, features, (uint32_t)f);
     }
     iccp_frame_fit(&d->frame, 2, d->n_vertices, d->given);
     status = iccp_polygon_bring_in(&d->frame, d->vertices, features->n_outer, d->given, err);
@@ -141,7 +141,7 @@ static icc_status localise(icc_domain *d, icc_error *err)
         const size_t first = 2 * (size_t)feature->first;
         if (iccp_polygon_bring_in(&d->frame, d->vertices + first, feature->n, d->given + first,
                                   &own) != ICC_OK)
-            return iccp_features_blame(err, &own, f, feature->kind);
+            return iccp_features_blame(err, &own, features, (uint32_t)f);
     }
     memcpy(d->vertices + 2 * d->n_vertices, d->vertices, 2 * sizeof *d->vertices);
     return ICC_OK;

@@ -6,12 +6,12 @@
  * and a facet for each point, with both ends at that point. So iccp_domain_facet_point() finds
  * places on all of them. Which places and facets coincide, the network tells (network.h).
  *
- * In a solid with features, the vertices of the outer surface come first, then those of the features
- * in their order. The triangles of the outer surface come first, then those of the holes (voids),
- * then those of the regions. domain->n_facets counts only those of the boundary, which are without
- * the regions'; n_places counts all. Triangles are listed as they were given. Lines and points have
- * no facets; vertex first + i of a line is joined to vertex first + i + 1. There is no network:
- * nothing coincides. Every vertex is used.
+ * In a solid with features, the vertices of the outer surface come first, then those of the
+ * features in their order. The triangles of the outer surface come first, then those of the holes
+ * (voids), then those of the regions. domain->n_facets counts only the first two, which are the
+ * boundary; n_places counts all. Triangles are listed as they were given. Lines and points have no
+ * facets; vertex first + i of a line is joined to vertex first + i + 1. There is no network,
+ * because nothing coincides. Every vertex is used.
  *
  * Regions of a solid have numbers. Number 0 is the part at the outer surface. Number 1 + k is the
  * inside of the k-th region among the features, without the regions in it. */
@@ -38,6 +38,7 @@ typedef struct iccp_feature {
 typedef struct iccp_features {
     size_t n, n_outer;     /* number of features; vertices of the outer ring or surface */
     size_t n_outer_facets; /* facets of the outer ring or surface */
+    bool in_space;         /* the features of a solid */
     size_t n_holes, n_lines, n_points, n_regions;
     size_t n_places; /* number of all facets, including those of lines and points */
     iccp_feature *item;
@@ -53,11 +54,19 @@ static inline bool iccp_feature_is_ring(int32_t kind)
     return kind == ICC_FEATURE_HOLE || kind == ICC_FEATURE_REGION;
 }
 
-/* Returns true if a feature of this kind may have n vertices. Returns false for unknown kinds. */
-static inline bool iccp_feature_allows(int32_t kind, size_t n)
+/* Returns true if a feature of this kind may have n vertices, in 2-D or 3-D. Returns false for
+ * unknown kinds. */
+static inline bool iccp_feature_allows(int32_t dim, int32_t kind, size_t n)
 {
-    return (iccp_feature_is_ring(kind) && n >= 3) || (kind == ICC_FEATURE_LINE && n >= 2) ||
-           (kind == ICC_FEATURE_POINT && n == 1);
+    return (iccp_feature_is_ring(kind) && n >= (dim == 2 ? 3 : 4)) ||
+           (kind == ICC_FEATURE_LINE && n >= 2) || (kind == ICC_FEATURE_POINT && n == 1);
+}
+
+/* Returns the number of facets that icc_domain_get_boundary() lists. */
+static inline size_t iccp_domain_n_listed(const icc_domain *domain)
+{
+    return domain->features != NULL && domain->features->in_space ? domain->features->n_places
+                                                                  : domain->n_facets;
 }
 
 /* Number of vertices of the line around a point with a radius. */

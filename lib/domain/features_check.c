@@ -30,9 +30,11 @@ const char *iccp_feature_name(int32_t kind)
 const char *iccp_feature_text(const iccp_features *features, uint32_t feature, char *text)
 {
     if (feature == NONE)
-        return "the outer ring";
+        return features->in_space ? "the outer surface" : "the outer ring";
+    const int32_t kind = features->item[feature].kind;
+    const bool is_void = features->in_space && kind == ICC_FEATURE_HOLE;
     (void)snprintf(text, ICCP_FEATURE_TEXT, "feature %lu (%s)", (unsigned long)feature,
-                   iccp_feature_name(features->item[feature].kind));
+                   is_void ? "a void" : iccp_feature_name(kind));
     return text;
 }
 
@@ -46,10 +48,12 @@ unsigned long iccp_feature_facet(const iccp_features *features, uint32_t feature
     return (unsigned long)(feature != NONE ? facet - features->item[feature].first_facet : facet);
 }
 
-icc_status iccp_features_blame(icc_error *err, const icc_error *own, size_t feature, int32_t kind)
+icc_status iccp_features_blame(icc_error *err, const icc_error *own, const iccp_features *features,
+                               uint32_t feature)
 {
-    return iccp_fail_at(err, own->status, ICC_ITEM_FEATURE, (int64_t)feature,
-                        "feature %zu (%s): %s", feature, iccp_feature_name(kind), own->message);
+    char name[ICCP_FEATURE_TEXT];
+    return iccp_fail_at(err, own->status, ICC_ITEM_FEATURE, (int64_t)feature, "%s: %s",
+                        iccp_feature_text(features, feature, name), own->message);
 }
 
 /* ---------------------------------------------------------------- messages */
@@ -101,7 +105,7 @@ static icc_status check_ring(const check *c, uint32_t feature, size_t first, siz
     const icc_status status = iccp_polygon_check_points(n, point(c, (uint32_t)first), NULL,
                                                         &c->domain->frame, c->env, &own);
     if (status == ICC_ERR_BOUNDARY && feature != NONE)
-        return iccp_features_blame(c->err, &own, feature, feature_of(c, feature)->kind);
+        return iccp_features_blame(c->err, &own, c->domain->features, feature);
     if (status != ICC_OK)
         iccp_error_copy(c->err, &own);
     return status;

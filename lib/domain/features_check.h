@@ -11,7 +11,8 @@ const char *iccp_feature_name(int32_t kind);
 /* Room for a text of iccp_feature_text(). */
 enum { ICCP_FEATURE_TEXT = 64 };
 
-/* Writes "feature 3 (a line)". For UINT32_MAX returns "the outer ring" instead. */
+/* Writes "feature 3 (a line)". For UINT32_MAX returns "the outer ring" or "the outer surface". A
+ * hole in a solid is called a void. */
 const char *iccp_feature_text(const iccp_features *features, uint32_t feature, char *text);
 
 /* Returns the number of a vertex or facet of the domain in its own feature. */
@@ -20,7 +21,8 @@ unsigned long iccp_feature_facet(const iccp_features *features, uint32_t feature
 
 /* Completes the message of a failure with the feature at fault. `own` describes the failure in the
  * numbers of the feature. Returns the status of `own`. */
-icc_status iccp_features_blame(icc_error *err, const icc_error *own, size_t feature, int32_t kind);
+icc_status iccp_features_blame(icc_error *err, const icc_error *own, const iccp_features *features,
+                               uint32_t feature);
 
 /* Checks the outer ring and the features of a domain, makes its network, and fills in the
  * orientations of rings. The domain's local vertices, frame and features must be there otherwise.

@@ -34,7 +34,7 @@ static void read_head(iccp_blob *b, parts *p)
     p->n_vertices = p->n_outer;
     for (size_t f = 0; f < p->n && b->status == ICC_OK; ++f) {
         const uint32_t kind = p->head[2 * f], n = p->head[2 * f + 1];
-        iccp_blob_require(b, kind <= INT32_MAX && iccp_feature_allows((int32_t)kind, n) &&
+        iccp_blob_require(b, kind <= INT32_MAX && iccp_feature_allows(2, (int32_t)kind, n) &&
                                  n <= ICCP_MAX_COUNT - p->n_vertices);
         p->n_vertices += n;
     }

@@ -66,29 +66,6 @@ static icc_status check_complex(iccp_complex *c, const iccp_env *env, icc_error 
 
 /* ---- voids ---- */
 
-/* Refuses a surface that is neither the outermost one, `outer`, nor that of a void. */
-static icc_status check_void(const iccp_surfaces *s, uint32_t outer, uint32_t k, icc_error *err)
-{
-    const iccp_surface *own = &s->item[k];
-    const unsigned long facet = own->first_facet, first = s->item[outer].first_facet;
-    if (own->around == UINT32_MAX)
-        return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)facet,
-                            "the boundary has more than one component: the surface with face %lu "
-                            "lies beside the surface with face %lu",
-                            facet, first);
-    if (own->around != outer)
-        return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_FACET, (int64_t)facet,
-                            "the surface with face %lu lies in the void with face %lu", facet,
-                            (unsigned long)s->item[own->around].first_facet);
-    if (own->orientation == s->item[outer].orientation)
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)facet,
-                            "the surface with face %lu lies in that with face %lu and is turned "
-                            "the same way: exchange two vertices of each of its faces to make it "
-                            "a void",
-                            facet, first);
-    return ICC_OK;
-}
-
 static icc_status check_voids(icc_domain *d, const iccp_surfaces *s, icc_error *err)
 {
     uint32_t outer = 0;
@@ -98,7 +75,7 @@ static icc_status check_voids(icc_domain *d, const iccp_surfaces *s, icc_error *
     for (uint32_t k = 0; k < s->n && status == ICC_OK; ++k) {
         d->genus += iccp_surface_genus(&s->item[k]);
         if (k != outer)
-            status = check_void(s, outer, k, err);
+            status = iccp_surfaces_check_void(s, outer, k, s->item[k].around, err);
     }
     d->orientation = s->item[outer].orientation;
     d->n_voids = s->n - 1;

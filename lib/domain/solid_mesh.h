@@ -6,9 +6,9 @@
 #include "geometry/simplices.h"
 
 /* Makes a domain with the boundary and the features of `solid` (solid_domain.h), bit for bit, and
- * with a mesh of its inside. Takes over the mesh, also if it fails. The caller fills in memory, dim,
- * n_points, points, n_simplices, corners, n_on_lines and on_line; everything else is 0. The first
- * points are all vertices of the solid, in local coordinates. The others are inner points.
+ * with a mesh of its inside. Takes over the mesh, also if it fails. The caller fills in memory,
+ * dim, n_points, points, n_simplices, corners, n_on_lines and on_line; everything else is 0. The
+ * first points are all vertices of the solid, in local coordinates. The others are inner points.
  *
  * Fills in the rest, including the region of each simplex. Corners are checked and never exchanged.
  * Returns ICC_ERR_CERTIFICATE or ICC_ERR_BOUNDARY unless, exactly,

@@ -42,6 +42,25 @@ int32_t iccp_segments_meet(const double *a, const double *b, const double *c, co
     return ab < 0 && cd < 0 ? ICC_DEFECT_CROSSING : ICC_DEFECT_TOUCH;
 }
 
+/* Segments in one plane meet if and only if their shadows along all three axes do. The reason is
+ * that along one of the axes, the shadow shows the plane without loss. */
+bool iccp_segments_meet_in_space(const double *a, const double *b, const double *c, const double *d)
+{
+    const double *const points[4] = {a, b, c, d};
+    double shadow[4][2];
+    if (iccp_orient3d(a, b, c, d) != 0)
+        return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < 4; ++i) {
+            shadow[i][0] = points[i][(axis + 1) % 3];
+            shadow[i][1] = points[i][(axis + 2) % 3];
+        }
+        if (iccp_segments_meet(shadow[0], shadow[1], shadow[2], shadow[3]) == 0)
+            return false;
+    }
+    return true;
+}
+
 void iccp_segments_point(const double *a, const double *b, const double *c, const double *d,
                          double *point)
 {

@@ -1,4 +1,4 @@
-/* Points and segments of the plane, exact unless said otherwise.
+/* Points and segments of the plane, and some of space, exact unless said otherwise.
  *
  * Words of this folder, which works on raw coordinates. Begin with this file, then polygon.h and
  * simplices.h.
@@ -53,6 +53,10 @@ bool iccp_segment_has(const double *a, const double *b, const double *p);
 /* Tells how the closed segments ab and cd meet; neither has length zero. Returns 0 if they do not,
  * ICC_DEFECT_CROSSING for one point inside both, else ICC_DEFECT_TOUCH. */
 int32_t iccp_segments_meet(const double *a, const double *b, const double *c, const double *d);
+
+/* Returns true if the closed segments ab and cd in space meet. Both may be points. */
+bool iccp_segments_meet_in_space(const double *a, const double *b, const double *c,
+                                 const double *d);
 
 /* Computes a common point of segments that meet, up to rounding. */
 void iccp_segments_point(const double *a, const double *b, const double *c, const double *d,

@@ -59,7 +59,7 @@ static bool coplanar_segment_meets(const double *p, const double *q, triangle t)
     return has_point(shadow, from);
 }
 
-static bool segment_meets(const double *p, const double *q, triangle t)
+bool iccp_triangle_meets(triangle t, const double *p, const double *q)
 {
     const int side = iccp_orient3d(t[0], t[1], t[2], p);
     if (side == iccp_orient3d(t[0], t[1], t[2], q))
@@ -120,7 +120,8 @@ static bool meet_apart(triangle s, triangle t)
     if (beside(t, 3, s))
         return false;
     for (int i = 0; i < 3; ++i)
-        if (segment_meets(s[i], s[(i + 1) % 3], t) || segment_meets(t[i], t[(i + 1) % 3], s))
+        if (iccp_triangle_meets(t, s[i], s[(i + 1) % 3]) ||
+            iccp_triangle_meets(s, t[i], t[(i + 1) % 3]))
             return true;
     return false;
 }
@@ -141,7 +142,7 @@ static bool meet_at_corner(triangle s, triangle t)
 {
     if (beside(s, 2, t + 1) || beside(t, 2, s + 1))
         return false;
-    return segment_meets(s[1], s[2], t) || segment_meets(t[1], t[2], s);
+    return iccp_triangle_meets(t, s[1], s[2]) || iccp_triangle_meets(s, t[1], t[2]);
 }
 
 /* The first two corners are common. The triangles overlap if they are coplanar and their third

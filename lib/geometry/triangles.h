@@ -5,6 +5,10 @@
 #include "base/env.h"
 #include "geometry/facet_tree.h"
 
+/* Returns true if the closed segment from p to q, which may be equal, meets the closed triangle. It
+ * has an area. */
+bool iccp_triangle_meets(const double *const *triangle, const double *p, const double *q);
+
 /* Returns true if two different triangles, given by three vertex indices each, have a common point
  * outside their common corners or side. Neither has area 0. */
 bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t);

@@ -81,5 +81,6 @@ icc_status iccp_check_correspondence(const icc_domain *source, const icc_domain 
                 "facet %zu does not join the same vertices in the target", i / (size_t)source->dim);
     if (status != ICC_OK)
         return iccp_fail_side(err, status, 2);
-    return source->features != NULL ? iccp_network_same(source, target, err) : ICC_OK;
+    return source->features != NULL && source->dim == 2 ? iccp_network_same(source, target, err)
+                                                        : ICC_OK;
 }

@@ -261,13 +261,16 @@ AT(icc_mesh, offsets, 48);
 AT(icc_mesh, types, 56);
 AT(icc_mesh, regions, 64);
 
-SIZE(icc_feature_info, 40);
+SIZE(icc_feature_info, 64);
 AT(icc_feature_info, size, 0);
 AT(icc_feature_info, kind, 8);
 AT(icc_feature_info, orientation, 12);
 AT(icc_feature_info, first_vertex, 16);
 AT(icc_feature_info, n_vertices, 24);
 AT(icc_feature_info, first_facet, 32);
+AT(icc_feature_info, n_facets, 40);
+AT(icc_feature_info, genus, 48);
+AT(icc_feature_info, around, 56);
 
 SIZE(icc_chart_options, 64);
 AT(icc_chart_options, size, 0);

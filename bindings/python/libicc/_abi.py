@@ -21,7 +21,7 @@ domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] u
 feature kind:i32 n_vertices:size vertices:ptr radius:f64 n_facets:size facets:ptr
 mesh dim:i32 n_vertices:size vertices:ptr n_cells:size cells:ptr offsets:ptr types:ptr regions:ptr
 fill_options ratio:f64 max_points:u64
-feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size
+feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size n_facets:size genus:size around:size
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64 axis_order:ptr
 chart_info dim:i32 method:i32 certified:i32 reason:i32 cells:i32 maximum:f64[6] spacing:f64
 gradient_info function:i32 tree:i32 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size moved:f64
@@ -77,6 +77,7 @@ i32:version_number
 char*:status_name i32
 domain_create domain** i32 size f64* size u32* env* error*
 domain_create_features domain** size f64* size feature* env* error*
+domain_create_solid domain** size f64* size u32* size feature* env* error*
 domain_create_mask domain** i32 size* u8* env* error*
 domain_create_mesh domain** mesh* size u32* env* error*
 mask_repair i32 size* u8* size* env* error*
@@ -84,6 +85,7 @@ void:domain_free domain*
 domain_get_info domain* domain_info*
 domain_fill domain** domain* fill_options* env* error*
 domain_get_feature domain* size feature_info*
+domain_get_regions domain* u32*
 domain_get_boundary domain* f64* u32*
 domain_get_mesh domain* mesh*
 domain_locate domain* size f64* i32* u32* f64* env*

@@ -315,19 +315,21 @@ pub struct icc_fill_options {
 sized!(icc_fill_options);
 
 // Kinds of features: `icc_feature.kind`.
-/// a simple polygon whose inside is not part of the domain
+/// a simple polygon whose inside is not part of the domain; in 3-D a void, which is a closed surface of
+/// triangles
 pub const ICC_FEATURE_HOLE: i32 = 1;
-/// a polyline of 2 or more vertices; with two vertices, a bone. It is closed if the last vertex repeats the
-/// first one
+/// a polyline of 2 or more vertices; with two vertices, a bone. In 2-D it is closed if the last vertex
+/// repeats the first one
 pub const ICC_FEATURE_LINE: i32 = 2;
 /// one vertex
 pub const ICC_FEATURE_POINT: i32 = 3;
 /// a simple polygon whose inside is part of the domain: for example a county, an island in a hole, or a
-/// polygon beside the outer ring
+/// polygon beside the outer ring. In 3-D a closed surface of triangles inside the outer one, with the domain
+/// on both sides
 pub const ICC_FEATURE_REGION: i32 = 4;
 
-/// A hole, line, point or region of a domain of the plane. A map takes it to the feature of the same number
-/// in the other domain: vertex to vertex, and edge to edge linearly.
+/// A hole, line, point or region of a domain. A map takes it to the feature of the same number in the other
+/// domain: vertex to vertex, and edge to edge or triangle to triangle linearly.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_feature {
@@ -335,15 +337,15 @@ pub struct icc_feature {
     pub size: usize,
     /// `ICC_FEATURE_*`
     pub kind: i32,
-    /// hole, region: at least 3; line: at least 2; point: 1
+    /// hole, region: at least 3, in 3-D at least 4; line: at least 2; point: 1
     pub n_vertices: usize,
-    /// 2 n_vertices coordinates
+    /// n_vertices times 2 coordinates, in 3-D times 3
     pub vertices: *const f64,
-    /// point: its size, if above 0, see `icc_domain_create_features()`. Otherwise 0
+    /// 2-D, point: its size, if above 0, see `icc_domain_create_features()`. Otherwise 0
     pub radius: f64,
-    /// reserved: 0
+    /// 3-D, hole or region: number of its triangles. Otherwise 0
     pub n_facets: usize,
-    /// reserved: NULL
+    /// 3-D, hole or region: 3 n_facets numbers of its own vertices. Otherwise NULL
     pub facets: *const u32,
 }
 sized!(icc_feature);
@@ -388,15 +390,21 @@ pub struct icc_feature_info {
     pub size: usize,
     /// `ICC_FEATURE_*`
     pub kind: i32,
-    /// hole or region: +1 if it is listed counter-clockwise (y upwards), -1 if clockwise; else 0
+    /// hole or region: +1 if it is listed counter-clockwise (y upwards; in 3-D as seen from outside it), -1
+    /// if clockwise; else 0
     pub orientation: i32,
     /// number of its first vertex in the domain; the others follow
     pub first_vertex: usize,
     /// number of its vertices
     pub n_vertices: usize,
-    /// hole or region: number of the facet from its first vertex to the next. It has as many facets as
-    /// vertices. Else 0
+    /// hole or region: number of its first facet; in 2-D the one from its first vertex to the next. Else 0
     pub first_facet: usize,
+    /// hole or region: number of its facets. Else 0
+    pub n_facets: usize,
+    /// 3-D, hole or region: number of its handles. Else 0
+    pub genus: usize,
+    /// 3-D: the region in which it lies, as `icc_domain_get_regions()` numbers them; else 0
+    pub around: usize,
 }
 sized!(icc_feature_info);
 
@@ -1312,6 +1320,62 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
+    /// Makes a solid in 3-D with features inside: voids, inner surfaces, lines and points. You choose where a
+    /// map takes them.
+    ///
+    /// The outer surface is that of `icc_domain_create()`. It may have handles, and voids of its own. Each
+    /// feature of kind `ICC_FEATURE_HOLE` or `ICC_FEATURE_REGION` is one closed surface, which may have
+    /// handles and may be turned either way. A hole is a void: its inside is not part of the domain. A region
+    /// divides the domain. Regions may contain voids and other regions. Voids are empty. A line is a polyline
+    /// that does not close.
+    ///
+    /// The vertices of the domain are those of the outer surface, followed by those of the features in their
+    /// order. Its facets are the triangles of the outer surface, then those of the holes, then those of the
+    /// regions.
+    ///
+    /// libicc checks exactly, with the coordinates as given, that
+    ///
+    /// - every surface passes the checks of `icc_domain_create()`, and every vertex is used
+    /// - features touch neither themselves, nor one another, nor the outer surface
+    /// - everything lies inside the outer surface, and nothing lies in a void.
+    ///
+    /// For `icc_domain_locate()`, points in a void are outside. Points on an inner surface, on a line or at a
+    /// point are inside. Without features the result is that of `icc_domain_create()`.
+    ///
+    /// - `out` (out): the domain; owned by the caller, see `icc_domain_free()`
+    /// - `n_vertices`: vertices of the outer surface, at least 4
+    /// - `vertices`: 3 n_vertices coordinates
+    /// - `n_facets`: triangles of the outer surface, at least 4
+    /// - `facets`: 3 n_facets vertex numbers
+    /// - `n_features`: number of features
+    /// - `features`: n_features of them; they are copied
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL. If the outer surface is at fault, `index` is its vertex or facet. Otherwise
+    ///   `index` is the feature (`ICC_ITEM_FEATURE`), and the message names its vertex or face and any other
+    ///   feature involved, in their own numbers
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_OUTSIDE` if a feature lies outside the outer surface or in a void, or touches the outer
+    ///   surface
+    /// - `ICC_ERR_BOUNDARY` if a surface is not valid, or features meet themselves or one another
+    /// - `ICC_ERR_TOPOLOGY` if the outer surface has several pieces side by side or something in its voids,
+    ///   or a feature has several pieces
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: O(n log n) time and O(n) memory for n vertices in all.
+    pub fn icc_domain_create_solid(
+        out: *mut *mut icc_domain,
+        n_vertices: usize,
+        vertices: *const f64,
+        n_facets: usize,
+        facets: *const u32,
+        n_features: usize,
+        features: *const icc_feature,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Makes a domain from a mask of cells, such as pixels or voxels. Cell (i_0, i_1, ..) covers \[i_0, i_0 +
     /// 1\] x \[i_1, i_1 + 1\] x .. in coordinates 0, 1, 2 and so on. (`icc_grid_create_mask()` takes a mask
     /// of grid vertices instead.)
@@ -1473,6 +1537,19 @@ extern "C" {
         feature: usize,
         info: *mut icc_feature_info,
     ) -> icc_status;
+
+    /// Copies the region of each cell of the mesh, for a solid that `icc_domain_fill()` filled. Regions are
+    /// numbered like the features of kind `ICC_FEATURE_REGION`, starting at 1. Cells of region k lie within
+    /// the k-th such surface, but not within a region inside it. Cells within no such surface have number 0.
+    ///
+    /// - `domain`: a domain with a mesh: `icc_domain_info.n_mesh_simplices` is not 0
+    /// - `regions` (out): room for n_mesh_simplices numbers
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if `domain` or `regions` is NULL
+    /// - `ICC_ERR_UNSUPPORTED` if the domain has no mesh
+    pub fn icc_domain_get_regions(domain: *const icc_domain, regions: *mut u32) -> icc_status;
 
     /// Copies the boundary as it was given. If the domain has features, the vertices include those of all
     /// features, and the facets include those of the holes and regions. With regions, some facets may lie
