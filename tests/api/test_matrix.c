@@ -25,12 +25,22 @@ enum {
     VOXELS,
     PENTATOPE,
     INTERVAL,
+    HOLLOW,
+    ORGANS,
     N_SHAPES
 };
 
-static const char *const SHAPES[] = {"polygon", "polygon with facets", "triangles", "pixels",
-                                     "surface", "tetrahedra",          "voxels",    "pentatope",
-                                     "interval"};
+static const char *const SHAPES[] = {"polygon",
+                                     "polygon with facets",
+                                     "triangles",
+                                     "pixels",
+                                     "surface",
+                                     "tetrahedra",
+                                     "voxels",
+                                     "pentatope",
+                                     "interval",
+                                     "surface with a void",
+                                     "solid with features"};
 
 static const double SQUARE[10] = {0, 0, 8, 0, 8, 8, 4, 8, 0, 8};
 static const uint32_t SIDES[10] = {3, 4, 4, 0, 0, 1, 1, 2, 2, 3};
@@ -47,6 +57,11 @@ static const uint32_t FACETS[20] = {1, 2, 3, 4, 2, 0, 3, 4, 0, 1, 3, 4, 1, 0, 2,
 static const double ENDS[2] = {0, 1};
 static const uint32_t END_FACETS[2] = {0, 1};
 
+/* A tetrahedron seen from outside: a void if its faces are turned over. */
+static const double TETRAHEDRON[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+static const uint32_t SEEN[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+static const uint32_t TURNED[12] = {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
+
 /* Numbers times a factor, and a little aslant. */
 static void bend(double *to, int32_t dim, size_t n, const double *from, double factor)
 {
@@ -56,6 +71,45 @@ static void bend(double *to, int32_t dim, size_t n, const double *from, double f
                 factor *
                 (from[i * (size_t)dim + (size_t)k] +
                  (factor == 1 ? 0 : 0.1 * from[i * (size_t)dim + (size_t)((k + 1) % dim)]));
+}
+
+/* A tetrahedron of a fifth of the cube's size. */
+static void place_tetrahedron(double *to, double x, double factor)
+{
+    double at[12];
+    for (int i = 0; i < 12; ++i)
+        at[i] = 0.2 * TETRAHEDRON[i] + (i % 3 == 0 ? x : 0.4);
+    bend(to, 3, 4, at, factor);
+}
+
+static icc_status make_hollow(icc_domain **out, double factor)
+{
+    double v[36];
+    uint32_t faces[48];
+    bend(v, 3, 8, CUBE, factor);
+    place_tetrahedron(v + 24, 0.4, factor);
+    memcpy(faces, FACES, sizeof FACES);
+    for (int i = 0; i < 12; ++i)
+        faces[36 + i] = 8 + TURNED[i];
+    return icc_domain_create(out, 3, 12, v, 16, faces, NULL, NULL);
+}
+
+/* A void, a region, a line and a point. */
+static icc_status make_organs(icc_domain **out, double factor)
+{
+    static const double LINE[6] = {0.1, 0.1, 0.1, 0.9, 0.1, 0.2}, POINT[3] = {0.5, 0.9, 0.9};
+    double outer[24], hollow[12], organ[12], line[6], point[3];
+    bend(outer, 3, 8, CUBE, factor);
+    place_tetrahedron(hollow, 0.2, factor);
+    place_tetrahedron(organ, 0.6, factor);
+    bend(line, 3, 2, LINE, factor);
+    bend(point, 3, 1, POINT, factor);
+    const size_t size = sizeof(icc_feature);
+    const icc_feature features[4] = {{size, ICC_FEATURE_HOLE, 4, hollow, 0, 4, SEEN},
+                                     {size, ICC_FEATURE_REGION, 4, organ, 0, 4, TURNED},
+                                     {size, ICC_FEATURE_LINE, 2, line, 0, 0, NULL},
+                                     {size, ICC_FEATURE_POINT, 1, point, 0, 0, NULL}};
+    return icc_domain_create_solid(out, 8, outer, 12, FACES, 4, features, NULL, NULL);
 }
 
 /* The shape as it is for factor 1, else what may become of it. */
@@ -91,6 +145,12 @@ static icc_domain *make_domain(int shape, double factor)
     case PENTATOPE:
         bend(v, 4, 5, CORNERS, factor);
         status = icc_domain_create(&d, 4, 5, v, 5, FACETS, NULL, NULL);
+        break;
+    case HOLLOW:
+        status = make_hollow(&d, factor);
+        break;
+    case ORGANS:
+        status = make_organs(&d, factor);
         break;
     case INTERVAL:
         bend(v, 1, 2, ENDS, factor);
