@@ -25,9 +25,6 @@ icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
     if (surface->dim != 3 || surface->mesh != NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "only surfaces in 3-D without a mesh can be filled");
-    if (surface->features != NULL || surface->n_voids > 0)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "a solid with voids, surfaces, lines or points inside cannot be filled");
     if (!(given.ratio == 0.0 || given.ratio >= 1.2))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_fill_options.ratio is %g; it must be 0 or at "

@@ -4,7 +4,7 @@
  * of all these edges. So it reaches every cell. */
 #include "fill/facet_scan.h"
 
-void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_surface *s)
+void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_constraints *s)
 {
     *scan = (iccp_facet_scan){.m = m, .s = s};
     scan->known.memory = m->memory;

@@ -2,12 +2,12 @@
 #ifndef ICCP_FACET_SCAN_H
 #define ICCP_FACET_SCAN_H
 
+#include "fill/constraints.h"
 #include "fill/pairs.h"
-#include "fill/surface.h"
 
 typedef struct iccp_facet_scan {
     iccp_tets *m;
-    const iccp_surface *s;
+    const iccp_constraints *s;
     uint32_t facet;
     const uint32_t *corners;
     iccp_pairs known;
@@ -17,7 +17,7 @@ typedef struct iccp_facet_scan {
     iccp_list faces;    /* sides whose corners are on the facet; most of them appear twice */
 } iccp_facet_scan;
 
-void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_surface *s);
+void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_constraints *s);
 void iccp_facet_scan_free(iccp_facet_scan *scan);
 
 /* Fills in the lists for a facet. Returns false if there is no memory. */

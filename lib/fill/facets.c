@@ -113,7 +113,7 @@ static icc_status recover(iccp_facet_scan *scan, uint32_t facet, icc_error *err)
     }
 }
 
-icc_status iccp_recover_facets(iccp_tets *m, const iccp_surface *s, const iccp_env *env,
+icc_status iccp_recover_facets(iccp_tets *m, const iccp_constraints *s, const iccp_env *env,
                                icc_error *err)
 {
     iccp_facet_scan scan;
@@ -126,73 +126,5 @@ icc_status iccp_recover_facets(iccp_tets *m, const iccp_surface *s, const iccp_e
             status = recover(&scan, f, err);
     }
     iccp_facet_scan_free(&scan);
-    return status;
-}
-
-/* Sets wall[side] to the facet and the mark, on both sides of all faces that make up facets. The
- * other entries are 0. */
-static icc_status mark_walls(iccp_tets *m, const iccp_surface *s, uint32_t *wall, icc_error *err)
-{
-    iccp_facet_scan scan;
-    icc_status status = ICC_OK;
-    iccp_facet_scan_init(&scan, m, s);
-    for (uint32_t f = 0; f < s->n_facets && status == ICC_OK; ++f) {
-        if (!iccp_facet_scan_run(&scan, f))
-            status = iccp_fail_memory(err);
-        else if (scan.piercing.n > 0 || scan.faces.n == 0)
-            status = iccp_fail_facet(err, f, "it is missing from the mesh");
-        for (size_t k = 0; k < scan.faces.n && status == ICC_OK; ++k) {
-            const uint32_t side = scan.faces.item[k];
-            wall[side] = wall[m->tet[side / 4].across[side % 4]] = ICCP_WALL | f;
-        }
-    }
-    iccp_facet_scan_free(&scan);
-    return status;
-}
-
-/* Collects in m->work, and stamps, everything that can be reached from a corner of the box without
- * crossing a wall. */
-static bool flood(iccp_tets *m, const uint32_t *wall, uint32_t stamp)
-{
-    const uint32_t seed = m->tet_of[m->points.n_given];
-    m->work.n = 0;
-    m->mark[seed] = stamp;
-    if (!iccp_list_push(m, &m->work, seed))
-        return false;
-    for (size_t k = 0; k < m->work.n; ++k) {
-        const uint32_t t = m->work.item[k];
-        for (uint32_t i = 0; i < 4; ++i) {
-            const uint32_t across = m->tet[t].across[i];
-            if (across == ICCP_NO_TET || wall[4 * t + i] != 0 || m->mark[across / 4] == stamp)
-                continue;
-            m->mark[across / 4] = stamp;
-            if (!iccp_list_push(m, &m->work, across / 4))
-                return false;
-        }
-    }
-    return true;
-}
-
-icc_status iccp_carve(iccp_tets *m, const iccp_surface *s, const iccp_env *env, icc_error *err)
-{
-    uint32_t *wall = iccp_alloc_zero(&env->memory, m->n_tets, 4 * sizeof *wall);
-    icc_status status = wall == NULL ? iccp_fail_memory(err) : mark_walls(m, s, wall, err);
-    if (status == ICC_OK && !flood(m, wall, iccp_tets_stamp(m)))
-        status = iccp_fail_memory(err);
-    if (status == ICC_OK) {
-        for (size_t side = 0; side < 4 * m->n_tets; ++side)
-            if (wall[side] != 0)
-                m->tet[side / 4].across[side % 4] = wall[side];
-        for (size_t k = 0; k < m->work.n; ++k)
-            iccp_tets_kill(m, m->work.item[k]);
-        for (size_t p = 0; p < m->points.n; ++p)
-            m->tet_of[p] = ICCP_NO_TET;
-        for (uint32_t t = 0; t < m->n_tets; ++t)
-            for (int i = 0; i < 4 && iccp_tet_alive(m, t); ++i)
-                m->tet_of[m->tet[t].v[i]] = t;
-    }
-    iccp_free(&env->memory, wall);
-    if (status == ICC_OK && m->n_alive == 0)
-        status = iccp_fail(err, ICC_ERR_TOPOLOGY, "no tetrahedron is left inside");
     return status;
 }

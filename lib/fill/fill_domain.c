@@ -6,7 +6,10 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
+#include "domain/features.h"
 #include "domain/mesh_domain.h"
+#include "domain/solid_mesh.h"
+#include "fill/carve.h"
 #include "fill/facets.h"
 #include "fill/inner_points.h"
 #include "fill/insert.h"
@@ -64,12 +67,18 @@ static icc_status make_box(iccp_tets *m, icc_error *err)
     return ICC_OK;
 }
 
-/* Keeps the vertices that belong to facets. The others are copies of one of them. */
+/* Keeps the vertices that belong to facets, lines and points. The others are copies of one of
+ * them. */
 static size_t keep_used(uint32_t *order, size_t n, const icc_domain *surface, uint32_t *seen)
 {
+    const iccp_features *const features = surface->features;
+    const size_t n_facets = features == NULL ? surface->n_facets : features->n_places;
     size_t n_used = 0;
-    for (size_t i = 0; i < 3 * surface->n_facets; ++i)
+    for (size_t i = 0; i < 3 * n_facets; ++i)
         seen[surface->facets[i]] = 1;
+    for (size_t i = 0; features != NULL && i < features->n; ++i)
+        for (uint32_t v = 0; v < features->item[i].n; ++v)
+            seen[features->item[i].first + v] = 1;
     for (size_t i = 0; i < n; ++i)
         if (seen[order[i]] != 0)
             order[n_used++] = order[i];
@@ -93,45 +102,94 @@ static icc_status insert_vertices(iccp_tets *m, const icc_domain *surface, const
     return status;
 }
 
-/* Converts the mesh to the caller's coordinates and makes it a domain. Frees its parts as soon as
- * possible. */
-static icc_status finish(icc_domain **out, iccp_tets *m, iccp_surface *s, const icc_domain *surface,
-                         const iccp_env *env, icc_error *err)
+/* Arrays of the finished mesh. Points have new numbers, without the box and unused points. */
+typedef struct finished {
+    const iccp_memory *memory;
+    uint32_t *number, *corners; /* by point of the mesh under construction; 4 by tetrahedron */
+    double *points;
+    size_t n_points, n_tets;
+} finished;
+
+static void free_finished(finished *f)
+{
+    iccp_free(f->memory, f->number);
+    iccp_free(f->memory, f->corners);
+    iccp_free(f->memory, f->points);
+}
+
+/* Fills in the arrays. With features, the points are local ones, otherwise the caller's. Returns
+ * false if there is no memory. */
+static bool collect(finished *f, const iccp_tets *m, const icc_domain *surface)
 {
     const iccp_points *const p = &m->points;
-    const size_t n_tets = m->n_alive;
-    uint32_t *number = iccp_alloc(&env->memory, p->n, sizeof *number);
-    uint32_t *corners = iccp_alloc(&env->memory, m->n_alive, 4 * sizeof *corners);
-    double *given = iccp_alloc(&env->memory, p->n, 3 * sizeof *given);
-    icc_status status = ICC_ERR_MEMORY;
-    if (number != NULL && corners != NULL && given != NULL) {
-        uint32_t n = 0;
-        size_t n_corners = 0;
-        for (uint32_t v = 0; v < p->n; ++v) {
-            if (v >= p->n_given && m->tet_of[v] == ICCP_NO_TET)
-                continue;
-            if (v < p->n_given)
-                iccp_domain_given(surface, v, given + 3 * (size_t)n);
-            else
-                iccp_frame_out(&surface->frame, 3, iccp_point(p, v), given + 3 * (size_t)n);
-            number[v] = n++;
-        }
-        for (uint32_t t = 0; t < m->n_tets; ++t)
-            for (int i = 0; i < 4 && iccp_tet_alive(m, t); ++i)
-                corners[n_corners++] = number[m->tet[t].v[i]];
+    f->n_tets = m->n_alive;
+    f->number = iccp_alloc(f->memory, p->n, sizeof *f->number);
+    f->corners = iccp_alloc(f->memory, f->n_tets, 4 * sizeof *f->corners);
+    f->points = iccp_alloc(f->memory, p->n, 3 * sizeof *f->points);
+    if (f->number == NULL || f->corners == NULL || f->points == NULL)
+        return false;
+    for (uint32_t v = 0; v < p->n; ++v) {
+        double *const x = f->points + 3 * f->n_points;
+        if (v >= p->n_given && m->tet_of[v] == ICCP_NO_TET)
+            continue;
+        if (surface->features != NULL)
+            memcpy(x, iccp_point(p, v), 3 * sizeof *x);
+        else if (v < p->n_given)
+            iccp_domain_given(surface, v, x);
+        else
+            iccp_frame_out(&surface->frame, 3, iccp_point(p, v), x);
+        f->number[v] = (uint32_t)f->n_points++;
+    }
+    size_t n = 0;
+    for (uint32_t t = 0; t < m->n_tets; ++t)
+        for (int i = 0; i < 4 && iccp_tet_alive(m, t); ++i)
+            f->corners[n++] = f->number[m->tet[t].v[i]];
+    return true;
+}
+
+/* Makes a mesh of the arrays and of the points on lines, which it takes over. Returns NULL if there
+ * is no memory. */
+static iccp_simplices *take(finished *f, iccp_constraints *s)
+{
+    iccp_simplices *const mesh = iccp_alloc_zero(f->memory, 1, sizeof *mesh);
+    if (mesh == NULL)
+        return NULL;
+    for (size_t k = 0; k < s->n_on_lines; ++k)
+        s->on_line[k].point = f->number[s->on_line[k].point];
+    *mesh = (iccp_simplices){.memory = *f->memory,
+                             .dim = 3,
+                             .n_points = f->n_points,
+                             .points = f->points,
+                             .n_simplices = f->n_tets,
+                             .corners = f->corners,
+                             .on_line = s->on_line,
+                             .n_on_lines = s->n_on_lines};
+    f->points = NULL;
+    f->corners = NULL;
+    s->on_line = NULL;
+    return mesh;
+}
+
+/* Makes the mesh a domain. Frees what is not needed any more as soon as possible. */
+static icc_status finish(icc_domain **out, iccp_tets *m, iccp_constraints *s,
+                         const icc_domain *surface, const iccp_env *env, icc_error *err)
+{
+    finished f = {.memory = &env->memory};
+    icc_status status = collect(&f, m, surface) ? ICC_OK : iccp_fail_memory(err);
+    if (status == ICC_OK) {
         iccp_tets_free(m);
         iccp_tets_init(m, &env->memory);
-        iccp_surface_free(s);
-        iccp_free(&env->memory, number);
-        number = NULL;
-        status = iccp_domain_create_mesh(out, 3, n, given, n_tets, corners, surface->n_facets,
-                                         surface->facets, env, err);
-    } else {
-        iccp_fail_memory(err);
     }
-    iccp_free(&env->memory, number);
-    iccp_free(&env->memory, corners);
-    iccp_free(&env->memory, given);
+    if (status == ICC_OK && surface->features != NULL) {
+        iccp_simplices *const mesh = take(&f, s);
+        status = mesh == NULL ? iccp_fail_memory(err)
+                              : iccp_domain_create_solid_mesh(out, surface, mesh, env, err);
+    } else if (status == ICC_OK) {
+        iccp_constraints_free(s);
+        status = iccp_domain_create_mesh(out, 3, f.n_points, f.points, f.n_tets, f.corners,
+                                         surface->n_facets, surface->facets, env, err);
+    }
+    free_finished(&f);
     return status;
 }
 
@@ -139,7 +197,7 @@ static icc_status finish(icc_domain **out, iccp_tets *m, iccp_surface *s, const 
 enum { INSERT, SEGMENTS, FACETS, LIFT, CLEAN_UP, REFINE, IMPROVE, CHECK, N_STAGES };
 static const double cost[N_STAGES] = {10, 5, 5, 5, 15, 30, 20, 10};
 
-static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
+static icc_status make(iccp_tets *m, iccp_constraints *s, const icc_domain *surface,
                        const iccp_fill_options *options, const iccp_env *stage, icc_error *err)
 {
     icc_status status = add_points(m, surface, err);
@@ -148,8 +206,9 @@ static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
     if (status == ICC_OK)
         status = insert_vertices(m, surface, &stage[INSERT], err);
     if (status == ICC_OK)
-        status = iccp_surface_create(s, surface->n_vertices, surface->n_facets, surface->facets,
-                                     &stage[SEGMENTS], err);
+        status = iccp_constraints_create(s, surface, &stage[SEGMENTS], err);
+    if (status == ICC_OK && s->n_lines > 0)
+        status = iccp_recover_lines(m, s, &stage[SEGMENTS], err);
     if (status == ICC_OK)
         status = iccp_recover_segments(m, s, &stage[SEGMENTS], err);
     if (status == ICC_OK)
@@ -182,7 +241,7 @@ icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
     for (uint32_t k = 0; k < MOST_ATTEMPTS && status == ICC_ERR_RESOLUTION; ++k) {
         const iccp_env attempt = iccp_round(env, k, 1.0);
         iccp_tets m;
-        iccp_surface s = {.memory = env->memory};
+        iccp_constraints s = {.memory = env->memory};
         s.edges.memory = env->memory;
         iccp_tets_init(&m, &env->memory);
         m.attempt = k;
@@ -192,7 +251,7 @@ icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
             status = iccp_fail_memory(err);
         if (status == ICC_OK)
             status = finish(out, &m, &s, surface, &stage[CHECK], err);
-        iccp_surface_free(&s);
+        iccp_constraints_free(&s);
         iccp_tets_free(&m);
     }
     return status;

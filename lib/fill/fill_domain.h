@@ -2,7 +2,7 @@
  *
  * Words of this folder. Begin with fill_domain.c, which lists the stages, then tets.h.
  * - given points: the vertices of the surface. A box around them contains all tetrahedra at first.
- * - segment, facet: an edge and a triangle of the surface (surface.h).
+ * - segment, facet: an edge and a triangle of the surface (constraints.h).
  * - recover: to change the mesh until a segment or facet is made of its edges or faces (segments.h,
  *   facets.h).
  * - obstacles: the faces that a missing edge crosses (obstacles.h).

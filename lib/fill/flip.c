@@ -49,7 +49,7 @@ bool iccp_remove_edge(iccp_tets *m, uint32_t p, uint32_t q, const iccp_removal *
     parts best;
     const size_t n = m->link.n;
     const uint32_t *const link = m->link.item;
-    if (n < 3 || n > MOST)
+    if (n < 3 || n > MOST || iccp_is_kept_edge(m, p, q))
         return false;
     find_best(&best, n, link, removal, least);
     if (!(best.worth[0][n - 1] > least))

@@ -18,7 +18,8 @@ typedef struct iccp_removal {
 } iccp_removal;
 
 /* Removes edge pq, whose ring is in m->ring and m->link. Uses the best triangulation of the link if
- * its worth is more than `least`. Returns false if nothing has changed. */
+ * its worth is more than `least`. Returns false if nothing has changed, as for an edge
+ * that must stay. */
 bool iccp_remove_edge(iccp_tets *m, uint32_t p, uint32_t q, const iccp_removal *removal,
                       double least);
 

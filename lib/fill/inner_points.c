@@ -216,42 +216,65 @@ static bool fill_queue(refinement *r, bool first)
     return true;
 }
 
-/* Computes target edge lengths. At a surface vertex it is the mean length of its edges. Inside it
- * comes from nearby vertices. */
-static bool make_sizes(refinement *r, const iccp_surface *s)
+static void add_lengths(const refinement *r, size_t n, const iccp_segment *segments,
+                        uint32_t *count)
+{
+    const iccp_points *const p = &r->m->points;
+    for (size_t e = 0; e < n; ++e) {
+        const uint32_t a = segments[e].a, b = segments[e].b;
+        const double length = sqrt(iccp_square_distance(iccp_point(p, a), iccp_point(p, b)));
+        r->size[a] += length, ++count[a];
+        r->size[b] += length, ++count[b];
+    }
+}
+
+/* Gives points without a size the mean of their neighbours' sizes. Sets *more if some get one and
+ * others do not. Returns false if there is no memory. */
+static bool spread_sizes(refinement *r, bool *more)
 {
     iccp_tets *const m = r->m;
-    r->n_sizes = m->points.room;
-    r->size = iccp_alloc_zero(&m->memory, r->n_sizes, sizeof *r->size);
-    uint32_t *n = iccp_alloc_zero(&m->memory, m->points.n_given, sizeof *n);
-    for (size_t e = 0; e < s->n_segments && r->size != NULL && n != NULL; ++e) {
-        const uint32_t a = s->segment[e].a, b = s->segment[e].b;
-        const double length =
-            sqrt(iccp_square_distance(iccp_point(&m->points, a), iccp_point(&m->points, b)));
-        r->size[a] += length, ++n[a];
-        r->size[b] += length, ++n[b];
-    }
-    for (size_t v = 0; v < m->points.n_given && r->size != NULL && n != NULL; ++v)
-        r->size[v] = n[v] > 0 ? r->size[v] / n[v] : 0.0;
-    bool done = r->size != NULL && n != NULL;
-    iccp_free(&m->memory, n);
-    for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n && done; ++p) {
-        if (m->tet_of[p] == ICCP_NO_TET)
-            continue;
+    bool some = false, others = false;
+    for (uint32_t p = 0; p < m->points.n; ++p) {
         double sum = 0.0, count = 0.0;
-        done = iccp_tets_star(m, p);
-        for (size_t k = 0; k < m->star.n && done; ++k)
+        if (m->tet_of[p] == ICCP_NO_TET || r->size[p] > 0.0)
+            continue;
+        if (!iccp_tets_star(m, p))
+            return false;
+        for (size_t k = 0; k < m->star.n; ++k)
             for (int i = 0; i < 4; ++i) {
                 const double size = r->size[m->tet[m->star.item[k]].v[i]];
                 sum += size;
                 count += size > 0.0;
             }
         r->size[p] = count > 0.0 ? sum / count : 0.0;
+        *(count > 0.0 ? &some : &others) = true;
     }
+    *more = some && others;
+    return true;
+}
+
+/* Computes target edge lengths. At a vertex of a surface or line it is the mean length of its
+ * edges. At other points it comes from nearby vertices. */
+static bool make_sizes(refinement *r, const iccp_constraints *s)
+{
+    iccp_tets *const m = r->m;
+    r->n_sizes = m->points.room;
+    r->size = iccp_alloc_zero(&m->memory, r->n_sizes, sizeof *r->size);
+    uint32_t *n = iccp_alloc_zero(&m->memory, m->points.n_given, sizeof *n);
+    if (r->size != NULL && n != NULL) {
+        add_lengths(r, s->n_segments, s->segment, n);
+        add_lengths(r, s->n_lines, s->line, n);
+    }
+    for (size_t v = 0; v < m->points.n_given && r->size != NULL && n != NULL; ++v)
+        r->size[v] = n[v] > 0 ? r->size[v] / n[v] : 0.0;
+    bool done = r->size != NULL && n != NULL;
+    iccp_free(&m->memory, n);
+    for (bool more = true; more && done;)
+        done = spread_sizes(r, &more);
     return done;
 }
 
-icc_status iccp_tets_refine(iccp_tets *m, const iccp_surface *s, double ratio, uint64_t most,
+icc_status iccp_tets_refine(iccp_tets *m, const iccp_constraints *s, double ratio, uint64_t most,
                             const iccp_env *env, icc_error *err)
 {
     enum { MOST_ROUNDS = 12, FEW = 5 };

@@ -2,12 +2,12 @@
 #ifndef ICCP_INNER_POINTS_H
 #define ICCP_INNER_POINTS_H
 
-#include "fill/surface.h"
+#include "fill/constraints.h"
 
 /* Inserts points until every circumradius is at most `ratio` times the tetrahedron's shortest edge,
  * or times the local edge length if that is longer. Puts no points close to the surface, and no
  * more than `most`. */
-icc_status iccp_tets_refine(iccp_tets *m, const iccp_surface *s, double ratio, uint64_t most,
+icc_status iccp_tets_refine(iccp_tets *m, const iccp_constraints *s, double ratio, uint64_t most,
                             const iccp_env *env, icc_error *err);
 
 #endif

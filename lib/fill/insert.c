@@ -151,6 +151,46 @@ static bool is_kept(const iccp_tets *m, const iccp_tet *tet, uint32_t stamp)
     return true;
 }
 
+/* Returns true if the cavity ends at a face of edge ij. Goes around the edge from tetrahedron t. */
+static bool is_edge_on_rim(const iccp_tets *m, uint32_t t, int i, int j, uint32_t stamp)
+{
+    const uint32_t first = t, a = m->tet[t].v[i], b = m->tet[t].v[j];
+    int k = 0;
+    while (k == i || k == j)
+        ++k;
+    do {
+        const iccp_tet *const tet = &m->tet[t];
+        if (is_rim(m, tet, k, stamp))
+            return true;
+        const uint32_t last = tet->v[6 - i - j - k];
+        t = tet->across[k] / 4;
+        i = iccp_tet_index(&m->tet[t], a);
+        j = iccp_tet_index(&m->tet[t], b);
+        k = iccp_tet_index(&m->tet[t], last);
+    } while (t != first);
+    return false;
+}
+
+/* Returns true if an edge of tetrahedron t that must stay would be lost. */
+static bool loses_edge(const iccp_tets *m, uint32_t t, uint32_t stamp)
+{
+    const uint32_t *const v = m->tet[t].v;
+    for (int i = 0; i < 4 && m->kept.n > 0; ++i)
+        for (int j = i + 1; j < 4; ++j)
+            if (iccp_is_kept_edge(m, v[i], v[j]) && !is_edge_on_rim(m, t, i, j, stamp))
+                return true;
+    return false;
+}
+
+/* Returns true if none of the cavity's first n tetrahedra loses an edge. */
+static bool keeps_lines(const iccp_tets *m, size_t n, uint32_t stamp)
+{
+    for (size_t k = 0; k < n; ++k)
+        if (loses_edge(m, m->cavity.item[k], stamp))
+            return false;
+    return true;
+}
+
 static void stamp_rim(iccp_tets *m, uint32_t stamp)
 {
     for (size_t k = 0; k < m->cavity.n; ++k) {
@@ -162,7 +202,8 @@ static void stamp_rim(iccp_tets *m, uint32_t stamp)
 }
 
 /* Drops tetrahedra with sides that the point does not see, and tetrahedra that would take a point
- * with them, until none are left. The first n_base stay; returns false if one of these is at fault.
+ * with them or an edge that must stay, until none are left. The first n_base are not dropped.
+ * Returns false if one of these is at fault.
  * A part that becomes separate has a side that the point does not see, so it is dropped, too. */
 static bool trim_cavity(iccp_tets *m, uint32_t point, size_t n_base, uint32_t stamp)
 {
@@ -173,7 +214,9 @@ static bool trim_cavity(iccp_tets *m, uint32_t point, size_t n_base, uint32_t st
             stamp_rim(m, stamp);
         for (size_t k = 0; k < m->cavity.n; ++k) {
             const uint32_t t = m->cavity.item[k];
-            if (rim ? is_kept(m, &m->tet[t], stamp) : sees_rim(m, &m->tet[t], point, stamp)) {
+            if (rim ? is_kept(m, &m->tet[t], stamp)
+                    : sees_rim(m, &m->tet[t], point, stamp) &&
+                          (k < n_base || !loses_edge(m, t, stamp))) {
                 m->cavity.item[n++] = t;
                 continue;
             }
@@ -188,7 +231,7 @@ static bool trim_cavity(iccp_tets *m, uint32_t point, size_t n_base, uint32_t st
         else if (again)
             rim = false;
     }
-    return true;
+    return keeps_lines(m, n_base, stamp);
 }
 
 /* Turns around edge ab to the next face of the rim and returns the new tetrahedron's side there.

@@ -290,7 +290,7 @@ static bool put_beside(iccp_lifting *l, uint32_t p)
 }
 
 /* Goes in rounds, because a stuck point may become free after others have left. */
-icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, icc_error *err)
+icc_status iccp_lift(iccp_tets *m, const iccp_constraints *s, const iccp_env *env, icc_error *err)
 {
     enum { MOST_ROUNDS = 12 };
     iccp_lifting l = {.m = m, .s = s};

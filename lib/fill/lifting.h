@@ -2,11 +2,11 @@
 #ifndef ICCP_LIFTING_H
 #define ICCP_LIFTING_H
 
-#include "fill/surface.h"
+#include "fill/constraints.h"
 
 typedef struct iccp_lifting {
     iccp_tets *m;
-    const iccp_surface *s;
+    const iccp_constraints *s;
     iccp_list walls; /* walls at the point */
     iccp_list polygon;
     iccp_list triangles; /* triangles of all its facets: three points and the facet */

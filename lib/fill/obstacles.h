@@ -3,18 +3,19 @@
 #ifndef ICCP_OBSTACLES_H
 #define ICCP_OBSTACLES_H
 
-#include "fill/surface.h"
+#include "fill/constraints.h"
 
 /* How segment ab meets a triangle. */
 enum { ICCP_MISSES, ICCP_THROUGH, ICCP_AT_EDGE, ICCP_WITHIN };
 
 typedef struct iccp_obstacles {
     iccp_tets *m;
-    iccp_surface *s;
+    iccp_constraints *s;
     uint32_t a, b;
     iccp_list tets, crossed; /* tetrahedra and sides on the segment */
     uint32_t p, q;           /* the edge that is being removed */
     size_t most_points;
+    bool rounded; /* the segment is of a line, so its points may be beside it, as doubles are */
     bool may_lose, lost; /* other edges of the surface may be lost; one was */
 } iccp_obstacles;
 

@@ -45,16 +45,3 @@ int iccp_points_orient_dyadic(const iccp_points *points, const uint32_t corner[4
         make_fixed(&fixed[i], points, corner[i]);
     return iccp_fixed_orient3d(&fixed[0], &fixed[1], &fixed[2], &fixed[3]);
 }
-
-void iccp_points_snap(const iccp_points *points, double x[3])
-{
-    double given[3];
-    for (int k = 0; k < 3; ++k)
-        if (fabs(x[k]) < ICCP_FRAME_SMALLEST)
-            x[k] = 0.0;
-    iccp_frame_out(points->frame, 3, x, given);
-    iccp_frame_in(points->frame, 3, given, x);
-    for (int k = 0; k < 3; ++k)
-        if (fabs(x[k]) < ICCP_FRAME_SMALLEST)
-            x[k] = 0.0;
-}

@@ -54,9 +54,11 @@ static inline int iccp_points_orient(const iccp_points *points, uint32_t a, uint
                          iccp_point(points, d));
 }
 
-/* Moves x to the nearest point that is the same after conversion to the caller's coordinates and
- * back. */
-void iccp_points_snap(const iccp_points *points, double x[3]);
+/* Moves x to a point that iccp_frame_snap() would leave in place. */
+static inline void iccp_points_snap(const iccp_points *points, double x[3])
+{
+    iccp_frame_snap(points->frame, 3, x);
+}
 
 /* Returns six times the volume of a tetrahedron, in doubles. */
 static inline double iccp_points_volume(const double *a, const double *b, const double *c,

@@ -116,30 +116,88 @@ static iccp_recovery recover_segment(iccp_obstacles *o, iccp_segment *segment, b
     return ICCP_PRESENT;
 }
 
-icc_status iccp_recover_segments(iccp_tets *m, iccp_surface *s, const iccp_env *env, icc_error *err)
+static icc_status fail_segment(const iccp_obstacles *o, const iccp_segment *segment, icc_error *err)
+{
+    if (!o->rounded)
+        return iccp_fail_facet(
+            err, segment->facet,
+            "one of its edges is too close to its surroundings for double precision");
+    return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_FEATURE, (int64_t)segment->facet,
+                        "feature %lu: a segment of the line is too close to its surroundings for "
+                        "double precision",
+                        (unsigned long)segment->facet);
+}
+
+static icc_status recover_all(iccp_obstacles *o, size_t n, iccp_segment *segments,
+                              const iccp_env *env, icc_error *err)
 {
     enum { FLIP_PASSES = 2 };
-    iccp_obstacles o = {.m = m, .s = s, .most_points = 20 * s->n_segments + 1000};
     icc_status status = ICC_OK;
+    o->most_points = 20 * n + 1000;
     for (size_t pass = 0, missing = 1; missing > 0 && status == ICC_OK; ++pass) {
         missing = 0;
-        for (size_t e = 0; e < s->n_segments && status == ICC_OK; ++e) {
-            const double share = ((double)pass + (double)e / (double)s->n_segments) / 3.0;
+        for (size_t e = 0; e < n && status == ICC_OK; ++e) {
+            const double share = ((double)pass + (double)e / (double)n) / 3.0;
             if (e % 1024 == 0)
                 status = iccp_explain(err, iccp_progress(env, "mesh", share));
-            iccp_segment *const segment = &s->segment[iccp_tets_turn(m, e, s->n_segments)];
-            const iccp_recovery made = recover_segment(&o, segment, pass >= FLIP_PASSES);
-            missing += made == ICCP_MISSING || o.lost;
-            o.lost = false;
+            iccp_segment *const segment = &segments[iccp_tets_turn(o->m, e, n)];
+            const iccp_recovery made = recover_segment(o, segment, pass >= FLIP_PASSES);
+            missing += made == ICCP_MISSING || o->lost;
+            o->lost = false;
             if (made == ICCP_NO_MEMORY)
                 status = iccp_fail_memory(err);
             else if (made == ICCP_STUCK)
-                status = iccp_fail_facet(
-                    err, segment->facet,
-                    "one of its edges is too close to its surroundings for double precision");
+                status = fail_segment(o, segment, err);
         }
     }
-    iccp_free(&m->memory, o.tets.item);
-    iccp_free(&m->memory, o.crossed.item);
+    iccp_free(&o->m->memory, o->tets.item);
+    iccp_free(&o->m->memory, o->crossed.item);
+    return status;
+}
+
+icc_status iccp_recover_segments(iccp_tets *m, iccp_constraints *s, const iccp_env *env,
+                                 icc_error *err)
+{
+    iccp_obstacles o = {.m = m, .s = s};
+    return recover_all(&o, s->n_segments, s->segment, env, err);
+}
+
+/* Lists the points that were put on lines, and keeps all pieces of lines. */
+static bool keep_lines(iccp_tets *m, iccp_constraints *s)
+{
+    const size_t n = m->points.n_dyadic;
+    s->on_line = iccp_alloc(&s->memory, n, sizeof *s->on_line);
+    if (s->on_line == NULL)
+        return false;
+    for (size_t e = 0; e < s->n_lines; ++e) {
+        const iccp_segment *const line = &s->line[e];
+        for (uint32_t p = line->a; p != line->b;) {
+            const uint32_t q = iccp_segment_next(m, line, p);
+            if (iccp_pairs_add(&m->kept, p, q) == ICCP_PAIR_MEMORY)
+                return false;
+            if (q != line->b)
+                s->on_line[s->n_on_lines++] =
+                    (iccp_on_line){q, line->a, line->b, iccp_segment_share(m, line, q)};
+            p = q;
+        }
+    }
+    return true;
+}
+
+/* Afterwards the points on lines stay where they are, like vertices. */
+icc_status iccp_recover_lines(iccp_tets *m, iccp_constraints *s, const iccp_env *env,
+                              icc_error *err)
+{
+    iccp_obstacles o = {.m = m, .s = s, .rounded = true};
+    icc_status status = ICC_OK;
+    for (size_t e = 0; e < s->n_lines && status == ICC_OK; ++e)
+        if (iccp_pairs_add(&s->edges, s->line[e].a, s->line[e].b) == ICCP_PAIR_MEMORY)
+            status = iccp_fail_memory(err);
+    if (status == ICC_OK)
+        status = recover_all(&o, s->n_lines, s->line, env, err);
+    if (status == ICC_OK && !keep_lines(m, s))
+        status = iccp_fail_memory(err);
+    m->points.n_dyadic = 0;
+    m->points.n_fixed = m->points.n;
     return status;
 }

@@ -132,6 +132,16 @@ static bool widen(iccp_obstacles *o, uint32_t side, uint32_t p)
            m->cavity.n <= MOST && (o->may_lose || keeps_edges(o));
 }
 
+/* Makes the point that was added last an ordinary one, as near to its place as doubles are. Keeps
+ * its share of the segment. */
+static void round_point(iccp_points *points)
+{
+    iccp_dyadic *const d = &points->dyadic[points->n_dyadic - 1];
+    d->share[0] = 0.0;
+    iccp_on_line_place(points->frame, iccp_point(points, d->of[0]), iccp_point(points, d->of[1]),
+                       d->share[1], points->x + 3 * (points->n - 1));
+}
+
 /* Puts a point at a share of the segment into the space of m->cavity, between a and b. The point
  * must see the whole rim. */
 static iccp_recovery put_at(iccp_obstacles *o, iccp_segment *segment, double share, uint32_t side,
@@ -143,6 +153,8 @@ static iccp_recovery put_at(iccp_obstacles *o, iccp_segment *segment, double sha
     const uint32_t p = iccp_tets_add_dyadic(m, &made);
     if (p == ICCP_NO_TET)
         return ICCP_NO_MEMORY;
+    if (o->rounded)
+        round_point(&m->points);
     const iccp_inserted done =
         wide && !widen(o, side, p) ? ICCP_NOT_INSERTED : iccp_tets_insert(m, p, m->cavity.n, false);
     if (done == ICCP_INSERT_MEMORY || m->no_memory)

@@ -10,6 +10,7 @@ const uint8_t iccp_tet_face[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}
 void iccp_tets_init(iccp_tets *m, const iccp_memory *memory)
 {
     *m = (iccp_tets){.memory = *memory, .free = ICCP_NO_TET, .round = 1, .random = 1};
+    m->kept.memory = *memory;
 }
 
 void iccp_tets_free(iccp_tets *m)
@@ -18,6 +19,7 @@ void iccp_tets_free(iccp_tets *m)
                                 &m->sides, &m->fresh, &m->work};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
         iccp_free(&m->memory, lists[i]->item);
+    iccp_pairs_free(&m->kept);
     iccp_free(&m->memory, m->points.x);
     iccp_free(&m->memory, m->points.dyadic);
     iccp_free(&m->memory, m->tet_of);

@@ -8,6 +8,7 @@
 
 #include "base/env.h"
 #include "fill/metric.h"
+#include "fill/pairs.h"
 #include "fill/points.h"
 #include "geometry/simplices.h"
 
@@ -48,8 +49,9 @@ typedef struct iccp_tets {
     uint64_t random;
     uint32_t attempt; /* number of the present order of insertion, from 0 */
     iccp_metric metric;
-    uint32_t hint;  /* where a search begins */
-    bool no_memory; /* an allocation has failed at some time, whatever came of it */
+    uint32_t hint;   /* where a search begins */
+    iccp_pairs kept; /* edges that must stay: the pieces of lines */
+    bool no_memory;  /* an allocation has failed at some time, whatever came of it */
     iccp_list star, ring, link, cavity, sides, fresh, work;
 } iccp_tets;
 
@@ -124,6 +126,11 @@ static inline bool iccp_tet_touched(const iccp_tets *m, uint32_t t)
     const uint32_t *const v = m->tet[t].v;
     return iccp_point_touched(m, v[0]) || iccp_point_touched(m, v[1]) ||
            iccp_point_touched(m, v[2]) || iccp_point_touched(m, v[3]);
+}
+
+static inline bool iccp_is_kept_edge(const iccp_tets *m, uint32_t a, uint32_t b)
+{
+    return m->kept.n > 0 && iccp_pairs_have(&m->kept, a, b);
 }
 
 /* Returns the sign of a point with respect to the face opposite corner i; positive means inside. */

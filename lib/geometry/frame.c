@@ -169,3 +169,16 @@ bool iccp_all_finite(size_t n, const double *numbers)
     }
     return carry >> 63 == 0;
 }
+
+void iccp_frame_snap(const iccp_frame *frame, int32_t dim, double *local)
+{
+    double given[ICC_MAX_DIM];
+    for (int32_t k = 0; k < dim; ++k)
+        if (fabs(local[k]) < ICCP_FRAME_SMALLEST)
+            local[k] = 0.0;
+    iccp_frame_out(frame, dim, local, given);
+    iccp_frame_in(frame, dim, given, local);
+    for (int32_t k = 0; k < dim; ++k)
+        if (fabs(local[k]) < ICCP_FRAME_SMALLEST)
+            local[k] = 0.0;
+}

@@ -70,6 +70,10 @@ static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const do
         x[k] = local[k] * frame->out[0] * frame->out[1] + frame->shift[k];
 }
 
+/* Moves a local point to the nearest one that is the same after conversion to the caller's
+ * coordinates and back, and that the predicates are exact for. */
+void iccp_frame_snap(const iccp_frame *frame, int32_t dim, double *local);
+
 /* Converts n points from the local coordinates of `from` to those of `to`. If shapes of the two
  * differ by a factor of 16 in size or lie 16 sizes apart, the difference counts as a motion of its
  * own: the points keep their local coordinates. */

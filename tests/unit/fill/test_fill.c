@@ -4,6 +4,7 @@
 #include "../../faulty.h"
 #include "../../flat_mesh.h"
 #include "../../hard_bodies.h"
+#include "../../hollow_bodies.h"
 #include "../../obj.h"
 #include "../../suite.h"
 #include "domain/domain.h"
@@ -200,6 +201,80 @@ START_TEST(saddles)
 }
 END_TEST
 
+static surface inner;
+
+START_TEST(handles)
+{
+    static const uint32_t sides[] = {3, 8, 16};
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; ++i) {
+        surface_tube(&shape, 24, sides[i], 0.3, tube_circle);
+        check_fills(&shape);
+        surface_tube(&shape, 60, sides[i], 0.4, tube_trefoil);
+        check_fills(&shape);
+        turn(&shape, 1e-2);
+        check_fills(&shape);
+    }
+}
+END_TEST
+
+/* A plate with four holes, and a scaffold of bars. */
+static int plate_cell(int x, int y, int z)
+{
+    return z == 0 && (x % 2 == 0 || y % 2 == 0);
+}
+
+static int scaffold_cell(int x, int y, int z)
+{
+    return x % 2 + y % 2 + z % 2 < 2;
+}
+
+START_TEST(many_handles)
+{
+    surface_cells(&shape, 5, plate_cell);
+    icc_domain *filled = fill(&shape, NULL);
+    ck_assert_uint_eq(info_of_domain(filled).genus, 4);
+    icc_domain_free(filled);
+    surface_cells(&shape, 7, scaffold_cell);
+    check_fills(&shape);
+    turn(&shape, 1);
+    check_fills(&shape);
+}
+END_TEST
+
+START_TEST(voids)
+{
+    random_source r = {3};
+    for (int n = 1; n <= 6; ++n) {
+        surface_star(&shape, 3, 0.1, &r);
+        for (int i = 0; i < n; ++i) {
+            surface_star(&inner, 1 + i % 3, 0.3, &r);
+            surface_place(&inner, 0, 0.15, 0.6 * cos(i), 0.6 * sin(i), 0);
+            surface_add_void(&shape, &inner);
+        }
+        icc_domain *filled = fill(&shape, NULL);
+        ck_assert_uint_eq(info_of_domain(filled).n_voids, (size_t)n);
+        icc_domain_free(filled);
+    }
+}
+END_TEST
+
+/* Two rings that are linked, one void each. */
+START_TEST(linked_voids)
+{
+    random_source r = {4};
+    surface_star(&shape, 3, 0, &r);
+    for (int i = 0; i < 2; ++i) {
+        surface_tube(&inner, 20, 6, 0.2, tube_circle);
+        surface_place(&inner, i, 0.4, i == 0 ? 0.2 : -0.2, 0, 0);
+        surface_add_void(&shape, &inner);
+    }
+    icc_domain *filled = fill(&shape, NULL);
+    ck_assert_uint_eq(info_of_domain(filled).n_voids, 2);
+    ck_assert_uint_eq(info_of_domain(filled).genus, 2);
+    icc_domain_free(filled);
+}
+END_TEST
+
 START_TEST(the_same_bits_again)
 {
     random_source r = {5};
@@ -275,6 +350,13 @@ START_TEST(failures_leave_nothing_behind)
     domain = make(&shape);
     faulty_sweep(fill_once, domain);
     icc_domain_free(domain);
+    surface_octahedron(&shape);
+    surface_tube(&inner, 3, 3, 0.2, tube_circle);
+    surface_place(&inner, 0, 0.3, 0, 0, 0);
+    surface_add_void(&shape, &inner);
+    domain = make(&shape);
+    faulty_sweep(fill_once, domain);
+    icc_domain_free(domain);
 }
 END_TEST
 
@@ -345,6 +427,10 @@ int main(void)
     tcase_add_test(tests, coplanar_grids);
     tcase_add_test(tests, twisted_prisms);
     tcase_add_test(tests, saddles);
+    tcase_add_test(tests, handles);
+    tcase_add_test(tests, many_handles);
+    tcase_add_test(tests, voids);
+    tcase_add_test(tests, linked_voids);
     tcase_add_test(tests, the_same_bits_again);
     tcase_add_test(tests, arguments_are_checked);
     tcase_add_test(tests, few_points_suffice);

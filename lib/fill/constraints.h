@@ -1,28 +1,34 @@
-/* The surface to be filled: its facets, its edges, and the points that were put on them. */
-#ifndef ICCP_SURFACE_H
-#define ICCP_SURFACE_H
+/* The surfaces and lines to be filled: facets, edges, and the points that were put on them. */
+#ifndef ICCP_CONSTRAINTS_H
+#define ICCP_CONSTRAINTS_H
 
-#include "fill/pairs.h"
+#include "domain/domain.h"
 #include "fill/tets.h"
 
 /* An edge of the surface from a to b, a < b. The points on it are linked from `first` to b. */
 typedef struct iccp_segment {
     uint32_t a, b, first;
-    uint32_t facet; /* one of its two facets */
+    uint32_t facet; /* one of its two facets; of a line: the feature */
 } iccp_segment;
 
-typedef struct iccp_surface {
+typedef struct iccp_constraints {
     iccp_memory memory;
     size_t n_facets, n_segments;
+    size_t n_boundary;      /* the first facets; the others have the domain on both sides */
     const uint32_t *facets; /* 3 vertices each */
     uint32_t *side;         /* 3 per facet: the segment opposite each corner */
     iccp_segment *segment;
-    iccp_pairs edges; /* all edges that ever were pieces of segments */
-} iccp_surface;
+    iccp_pairs edges;   /* all edges that ever were pieces of segments */
+    iccp_segment *line; /* the segments of lines */
+    size_t n_lines;
+    iccp_on_line *on_line; /* points that were put on lines, in the order of these segments */
+    size_t n_on_lines;
+} iccp_constraints;
 
-icc_status iccp_surface_create(iccp_surface *s, size_t n_vertices, size_t n_facets,
-                               const uint32_t *facets, const iccp_env *env, icc_error *err);
-void iccp_surface_free(iccp_surface *s);
+/* Takes the surfaces and lines of a domain. The facets stay the domain's. */
+icc_status iccp_constraints_create(iccp_constraints *s, const icc_domain *domain,
+                                   const iccp_env *env, icc_error *err);
+void iccp_constraints_free(iccp_constraints *s);
 
 /* Returns the next point after p towards b on the segment. p lies on the segment. */
 uint32_t iccp_segment_next(const iccp_tets *m, const iccp_segment *segment, uint32_t p);

@@ -1,12 +1,13 @@
-/* The surface to be filled. */
-#include "fill/surface.h"
+/* The surfaces and lines to be filled. */
+#include "fill/constraints.h"
 
 #include "base/error.h"
 #include "domain/complex.h"
+#include "domain/features.h"
 
 /* Numbers the edges. Each is counted in the facet where it runs from its smaller vertex to the
  * larger one. */
-static void number_edges(iccp_surface *s, const uint32_t *across)
+static void number_edges(iccp_constraints *s, const uint32_t *across)
 {
     for (uint32_t i = 0; i < 3 * s->n_facets; ++i) {
         const uint32_t f = i / 3, *const v = s->facets + 3 * (size_t)f;
@@ -22,17 +23,39 @@ static void number_edges(iccp_surface *s, const uint32_t *across)
     }
 }
 
-icc_status iccp_surface_create(iccp_surface *s, size_t n_vertices, size_t n_facets,
-                               const uint32_t *facets, const iccp_env *env, icc_error *err)
+/* Lists the segments of all lines. */
+static bool list_lines(iccp_constraints *s, const iccp_features *features)
 {
-    *s = (iccp_surface){.memory = env->memory, .n_facets = n_facets, .facets = facets};
+    size_t n = 0;
+    for (size_t i = 0; i < features->n; ++i)
+        n += features->item[i].kind == ICC_FEATURE_LINE ? features->item[i].n - 1 : 0;
+    s->line = iccp_alloc(&s->memory, n, sizeof *s->line);
+    if (s->line == NULL)
+        return false;
+    for (uint32_t i = 0; i < features->n; ++i) {
+        const iccp_feature *const f = &features->item[i];
+        for (uint32_t v = f->first; f->kind == ICC_FEATURE_LINE && v + 1 < f->first + f->n; ++v)
+            s->line[s->n_lines++] = (iccp_segment){v, v + 1, v + 1, i};
+    }
+    return true;
+}
+
+icc_status iccp_constraints_create(iccp_constraints *s, const icc_domain *domain,
+                                   const iccp_env *env, icc_error *err)
+{
+    const size_t n = domain->features == NULL ? domain->n_facets : domain->features->n_places;
+    *s = (iccp_constraints){.memory = env->memory,
+                            .n_facets = n,
+                            .n_boundary = domain->n_facets,
+                            .facets = domain->facets};
     s->edges.memory = env->memory;
-    iccp_complex c = {3, n_vertices, n_facets, facets, NULL};
-    s->side = iccp_alloc(&env->memory, n_facets, 3 * sizeof *s->side);
-    s->segment = iccp_alloc(&env->memory, n_facets, 3 * sizeof *s->segment / 2 + 1);
-    c.across = iccp_alloc(&env->memory, n_facets, 3 * sizeof *c.across);
+    iccp_complex c = {3, domain->n_vertices, n, domain->facets, NULL};
+    s->side = iccp_alloc(&env->memory, n, 3 * sizeof *s->side);
+    s->segment = iccp_alloc(&env->memory, n, 3 * sizeof *s->segment / 2 + 1);
+    c.across = iccp_alloc(&env->memory, n, 3 * sizeof *c.across);
     icc_status status = ICC_ERR_MEMORY;
-    if (s->side != NULL && s->segment != NULL && c.across != NULL)
+    if (s->side != NULL && s->segment != NULL && c.across != NULL &&
+        (domain->features == NULL || list_lines(s, domain->features)))
         status = iccp_complex_join(&c, env, err);
     else
         iccp_fail_memory(err);
@@ -45,12 +68,14 @@ icc_status iccp_surface_create(iccp_surface *s, size_t n_vertices, size_t n_face
     return status;
 }
 
-void iccp_surface_free(iccp_surface *s)
+void iccp_constraints_free(iccp_constraints *s)
 {
     iccp_free(&s->memory, s->side);
     iccp_free(&s->memory, s->segment);
+    iccp_free(&s->memory, s->line);
+    iccp_free(&s->memory, s->on_line);
     iccp_pairs_free(&s->edges);
-    *s = (iccp_surface){.memory = s->memory, .edges.memory = s->memory};
+    *s = (iccp_constraints){.memory = s->memory, .edges.memory = s->memory};
 }
 
 static const iccp_dyadic *dyadic(const iccp_tets *m, uint32_t p)
