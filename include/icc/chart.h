@@ -586,8 +586,8 @@ ICC_API icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *so
                                               const icc_map_options *options, const icc_env *env,
                                               icc_error *err);
 
-/** The chart of the source; borrowed. NULL for a map made by icc_map_retarget(), and for a mesh map
- *  beyond 3-D. */
+/** The chart of the source; borrowed. NULL for a map made by icc_map_retarget(), for a mesh map
+ *  beyond 3-D, and for one in 3-D unless a method or a maximum was asked for. */
 ICC_API const icc_chart *icc_map_source_chart(const icc_map *map);
 
 /** The chart of the target; borrowed. NULL like icc_map_source_chart(). */

@@ -822,10 +822,10 @@ enum {
      *  chosen for low distortion. Every triangle is exactly positive before and after, which
      *  means that it keeps its orientation. Both boundaries are exactly simple.
      *
-     *  In 3-D the map needs two closed surfaces. They are filled unless they bring a mesh. The
-     *  map uses the source's mesh, with images that are chosen and certified as in 2-D. The
-     *  target's mesh only serves its chart. Where necessary, inner edges of the source's mesh
-     *  between boundary vertices are cut.
+     *  In 3-D the map needs two closed surfaces. The source is filled unless it brings a mesh.
+     *  The map is made without charts and uses the source's mesh, with images that are chosen
+     *  and certified as in 2-D. Where necessary, inner edges of the source's mesh between
+     *  boundary vertices are cut, or the map is made on the target's mesh.
      *
      *  In 4-D to 6-D the map is made without charts. Its mesh is that of either domain, or the
      *  cells of either mask, or the cone from one inner vertex to all facets. The cone needs a
@@ -857,17 +857,18 @@ typedef struct icc_map_options {
     size_t size; /**< set by the caller: `sizeof(icc_map_options)` */
     /** `ICC_MAP_*`: this kind, or ::ICC_ERR_CERTIFICATE if no such map is found. 0: the best
      *  that is found, see icc_map_info::kind. That is a mesh map for foliation and disc in 2-D,
-     *  unless both domains bring meshes, and for foliation in 3-D. Beyond 3-D it is a mesh map
-     *  unless `chart` names a method or a maximum. It is a curve map in all other cases, or if
-     *  no mesh map is found */
+     *  unless both domains bring meshes, and for foliation in 3-D. From 3-D on it is also a mesh
+     *  map if `chart` names neither a method nor a maximum. It is a curve map in all other cases,
+     *  or if no mesh map is found */
     int32_t kind;
     /** mesh map: at most this many improvement steps on each level of refinement. 0: as long as
      *  they pay off. -1: no improvement */
     int32_t iterations;
     /** For both charts, or NULL. Its `maximum` is the source's. For a mesh map in 2-D, method 0
-     *  means disc (foliation if a maximum is given), and cells 0 means 20. In 3-D, method 0
-     *  means foliation, or field for masks. Beyond 3-D, a mesh map has no charts, so kind
-     *  ::ICC_MAP_MESH allows neither a method nor a maximum. */
+     *  means disc (foliation if a maximum is given), and cells 0 means 20. In 3-D, a map gets
+     *  charts if a method, a maximum or kind ::ICC_MAP_CURVES is asked for, and for masks.
+     *  Method 0 then means foliation, or field for masks. Beyond 3-D, a mesh map has no charts,
+     *  so kind ::ICC_MAP_MESH allows neither a method nor a maximum. */
     const struct icc_chart_options *chart;
     const double *target_maximum; /**< the target's maximum; NULL: chosen by the method */
     /** with features: in each part of the domain, one less than it has pieces; or 0. A piece is
@@ -965,8 +966,9 @@ typedef struct icc_map_report {
  *
  * Both charts are built together, and their maxima are paired.
  *
- * In 3-D, surfaces without a mesh are filled by icc_domain_fill() without options, unless the
- * method is gradient or field. Method field needs no mesh. A mesh map is found for most pairs in
+ * In 3-D, a source without a mesh is filled by icc_domain_fill() without options, unless the
+ * method is gradient or field. Method field needs no mesh. A target without a mesh is filled for a
+ * chart. A mesh map is found for most pairs in
  * 3-D, but not for all. docs/theory/solid-maps.md says what is tried. For 4-D to 6-D
  * docs/theory/higher-maps.md does.
  *

@@ -288,6 +288,43 @@ static icc_status create_without_features(icc_map **out, const icc_domain *const
     return status;
 }
 
+/* Fills the source with tetrahedra, unless it has some, and makes a mesh map in space without
+ * charts. */
+static icc_status create_solid(icc_map **out, const icc_domain *source, const icc_domain *target,
+                               const icc_map_options *options, size_t *n_left, const iccp_env *env,
+                               icc_error *err)
+{
+    icc_domain *filled;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_fill_side(&filled, source, 0, &part[0], err);
+    if (status == ICC_OK)
+        status = create_of_kind(out, filled, target, NULL, &iccp_solid_kind, options, n_left,
+                                &part[1], err);
+    iccp_domain_release(filled);
+    return status;
+}
+
+/* Makes a mesh map without charts, from 3-D on. *n_left is as in create_of_kind(). */
+static icc_status create_without_charts(icc_map **out, const icc_domain *source,
+                                        const icc_domain *target, const icc_map_options *options,
+                                        size_t *n_left, const iccp_env *env, icc_error *err)
+{
+    return source->dim == 3 ? create_solid(out, source, target, options, n_left, env, err)
+                            : create_of_kind(out, source, target, NULL, &iccp_higher_kind, options,
+                                             n_left, env, err);
+}
+
+/* True if the options leave it to libicc how a map is made, and a mesh map without charts is
+ * possible. */
+static bool needs_no_charts(const icc_domain *const domains[2], const icc_map_options *options,
+                            const icc_chart_options chart_options[2])
+{
+    const bool has_mask = domains[0]->mask != NULL || domains[1]->mask != NULL;
+    return domains[0]->dim >= (has_mask ? 4 : 3) && options->kind != ICC_MAP_CURVES &&
+           !has_wishes(chart_options);
+}
+
 /* Whether both domains are surfaces in space, at least one of them has no mesh, and the options ask
  * for no method on a grid. Then both are filled with tetrahedra first. */
 static bool are_to_be_filled(const icc_domain *const domains[2],
@@ -334,17 +371,20 @@ static icc_status create(icc_map **out, const icc_domain *source, const icc_doma
                               err);
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 1}, env);
-    if (source->dim > 3 && options->kind != ICC_MAP_CURVES && !has_wishes(chart_options)) {
-        status = create_of_kind(out, source, target, NULL, &iccp_higher_kind, options, &n_left,
-                                &part[0], err);
+    icc_map_options rest = *options;
+    if (needs_no_charts(domains, options, chart_options)) {
+        status = create_without_charts(out, source, target, options, &n_left, &part[0], err);
+        if (status == ICC_OK && n_left == 0)
+            (*out)->info.seconds = iccp_seconds() - start;
         if (status != ICC_OK || n_left == 0)
             return status;
         env = &part[1];
+        rest.kind = ICC_MAP_CURVES;
     }
     if (are_to_be_filled(domains, chart_options))
-        status = create_filled(out, domains, options, chart_options, env, err);
+        status = create_filled(out, domains, &rest, chart_options, env, err);
     else
-        status = create_without_features(out, domains, options, chart_options, env, err);
+        status = create_without_features(out, domains, &rest, chart_options, env, err);
     if (status == ICC_OK)
         (*out)->info.seconds = iccp_seconds() - start;
     if (status == ICC_OK && n_left > 0)

@@ -196,7 +196,8 @@ END_TEST
 static const test_shape STUCK[][2] = {
     {{BODY, 11.764130455090291, -0.54344699827679688}, {CUBE, 0, 0}},
     {{BODY, 11.798651096662216, -0.5059197956120548}, {SPHERE, 0, 0}},
-    {{BODY, 6.7324459905756582, 0.7482038652394909}, {CUBE, 0, 0}}};
+    {{BODY, 6.7324459905756582, 0.7482038652394909}, {CUBE, 0, 0}},
+    {{BODY, 12.642880156128776, 1.0468084025933282}, {CUBE, 0, 0}}};
 
 START_TEST(points_are_added)
 {
@@ -205,48 +206,21 @@ START_TEST(points_are_added)
 }
 END_TEST
 
-/* Whether there were pockets, and whether one got points before that. */
-static void note_pockets(void *pockets, const char *message)
+static void note_pockets(void *is_there, const char *message)
 {
-    bool *is = pockets;
-    is[0] |= strstr(message, "a pocket of") != NULL;
-    is[1] |= strstr(message, " tetrahedra cannot be repaired: points are added") != NULL;
+    *(bool *)is_there |= strstr(message, "a pocket of") != NULL;
 }
 
-/* Onto what is a ball already, from either side: few tetrahedra are left. Some pockets of the ball's
- * mesh need points. */
+/* From either side a few tetrahedra are left. */
 START_TEST(in_pockets)
 {
-    icc_domain *const d[2] = {domain_of(2, &STUCK[1][0]), domain_of(2, &STUCK[1][1])};
+    icc_domain *const d[2] = {domain_of(2, &STUCK[3][0]), domain_of(2, &STUCK[3][1])};
     for (int k = 0; k < 2; ++k) {
-        bool is[2] = {false, false};
-        const icc_env env = {.size = sizeof env, .log = note_pockets, .user = is};
-        check_pair((const icc_domain *const[2]){d[k], d[1 - k]}, "ball", &env);
-        ck_assert(is[0]);
-        ck_assert(is[1] == (k == 1));
+        bool is_there = false;
+        const icc_env env = {.size = sizeof env, .log = note_pockets, .user = &is_there};
+        check_pair((const icc_domain *const[2]){d[k], d[1 - k]}, "cube", &env);
+        ck_assert(is_there);
     }
-    icc_domain_free(d[0]);
-    icc_domain_free(d[1]);
-}
-END_TEST
-
-/* Whether a map went by way of a ball, and whether something else was tried after that. */
-static void note_coat(void *coats, const char *message)
-{
-    bool *is = coats;
-    is[1] |= is[0];
-    is[0] |= strstr(message, "a coat:") != NULL;
-}
-
-/* From flat faces to limbs, which is found the other way round. */
-START_TEST(in_a_coat)
-{
-    icc_domain *const d[2] = {domain_of(2, &STUCK[0][1]), domain_of(2, &STUCK[0][0])};
-    bool is[2] = {false, false};
-    const icc_env env = {.size = sizeof env, .log = note_coat, .user = is};
-    check_pair((const icc_domain *const *)d, "cube", &env);
-    ck_assert(is[0]);
-    ck_assert(!is[1]);
     icc_domain_free(d[0]);
     icc_domain_free(d[1]);
 }
@@ -268,7 +242,7 @@ END_TEST
  * for that kind is told of kind 0. */
 START_TEST(kinds_that_cannot_be_had)
 {
-    icc_domain *const d[2] = {domain_of(2, &(test_shape){PLATE, 1e-13, 0}),
+    icc_domain *const d[2] = {domain_of(2, &(test_shape){PLATE, 1e-15, 0}),
                               domain_of(2, &(test_shape){BODY, 8, 0.6})};
     const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
     icc_error err = {.size = sizeof err};
@@ -292,7 +266,7 @@ END_TEST
  * last. */
 START_TEST(failures)
 {
-    for (size_t n = 0; n < 3; n += 2) {
+    for (size_t n = 0; n < 4; n += 3) {
         icc_domain *const d[2] = {domain_of(2, &STUCK[n][1]), domain_of(2, &STUCK[n][0])};
         icc_status status = ICC_ERR_MEMORY;
         for (size_t k = 1; status != ICC_OK; k = share_next(k + k / 2)) {
@@ -328,7 +302,6 @@ int main(void)
     tcase_add_test(tcase, bodies_spheres_cubes);
     tcase_add_test(tcase, points_are_added);
     tcase_add_test(tcase, in_pockets);
-    tcase_add_test(tcase, in_a_coat);
     tcase_add_test(tcase, random_pairs);
     tcase_add_test(tcase, kinds_that_cannot_be_had);
     tcase_add_test(tcase, failures);

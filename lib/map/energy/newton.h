@@ -40,7 +40,8 @@
 typedef enum iccp_energy {
     ICCP_DIRICHLET,           /* symmetric Dirichlet, with its own Hessian */
     ICCP_DIRICHLET_MAJORISED, /* the same, with SLIM's Hessian */
-    ICCP_UNTANGLE
+    ICCP_UNTANGLE,
+    ICCP_MODEL /* the distance from the model alone. If the model is 0, the minimum is harmonic */
 } iccp_energy;
 
 typedef struct iccp_newton {

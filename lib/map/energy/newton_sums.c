@@ -7,6 +7,7 @@
 #include "map/energy/untangling.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Points whose sums a thread clears at once. */
 enum { POINTS = 256 };
@@ -28,6 +29,8 @@ static ICCP_INLINE double energy_of(size_t dim, const iccp_newton *s, size_t e, 
     const double *image[4], *element = iccp_newton_images(dim, s, e, image);
     if (energy == ICCP_UNTANGLE)
         return iccp_untangling_energy(dim, element, image, epsilon);
+    if (energy == ICCP_MODEL)
+        return iccp_model_energy(dim, &s->map, s->assembly.simplex[e], element);
     const double own = iccp_dirichlet_energy(dim, element, image);
     return s->map.model == NULL
                ? own
@@ -99,7 +102,10 @@ static void find_local(const loop *l, size_t e, iccp_local *local)
     const double *image[4], *element = iccp_newton_images(dim, l->s, e, image);
     if (l->energy == ICCP_UNTANGLE)
         iccp_untangling_local(dim, element, image, l->epsilon, local);
-    else {
+    else if (l->energy == ICCP_MODEL) {
+        memset(local, 0, sizeof *local);
+        add_model(l, e, local);
+    } else {
         iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, local);
         add_model(l, e, local);
     }

@@ -11,20 +11,27 @@ typedef struct fill_job {
     const icc_domain *const *domain;
 } fill_job;
 
+icc_status iccp_fill_side(icc_domain **filled, const icc_domain *domain, size_t side,
+                          const iccp_env *env, icc_error *err)
+{
+    static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
+    if (domain->mesh != NULL) {
+        *filled = iccp_domain_retain(domain);
+        return ICC_OK;
+    }
+    *filled = NULL;
+    const icc_status status = iccp_domain_fill(filled, domain, &options, env, err);
+    if (status != ICC_OK)
+        return iccp_fail_side(err, status, (int32_t)side + 1);
+    iccp_log(env, "%s: filled with %zu tetrahedra", side == 0 ? "source" : "target",
+             (*filled)->mesh->n_simplices);
+    return ICC_OK;
+}
+
 static icc_status fill_one(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
     const fill_job *job = argument;
-    if (job->domain[k]->mesh != NULL) {
-        job->filled[k] = iccp_domain_retain(job->domain[k]);
-        return ICC_OK;
-    }
-    const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
-    const icc_status status = iccp_domain_fill(&job->filled[k], job->domain[k], &options, env, err);
-    if (status != ICC_OK)
-        return iccp_fail_side(err, status, (int32_t)k + 1);
-    iccp_log(env, "%s: filled with %zu tetrahedra", k == 0 ? "source" : "target",
-             job->filled[k]->mesh->n_simplices);
-    return ICC_OK;
+    return iccp_fill_side(&job->filled[k], job->domain[k], k, env, err);
 }
 
 icc_status iccp_fill_pair(icc_domain *filled[2], const icc_domain *const domains[2],

@@ -31,14 +31,6 @@ static void set_middle(const double *points, uint32_t a, uint32_t b, double midd
     iccp_simplicial_round(3, middle);
 }
 
-/* Returns true if a half of a tetrahedron is positive before and after the map, except where the
- * whole was not. */
-static bool is_kept(const iccp_solid_edit *edit, const uint32_t *half, const uint32_t *whole)
-{
-    return iccp_solid_is_positive(edit, half) ||
-           (iccp_solid_is_positive_before(edit, half) && !iccp_solid_is_positive(edit, whole));
-}
-
 /* Puts one half of each tetrahedron around an edge in its place and adds the other. Undoes
  * everything if rounding has made a half flat. */
 static bool halve(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring *ring)
@@ -54,7 +46,7 @@ static bool halve(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring
         const uint32_t p = ring->point[k / 2], q = ring->point[(k / 2 + 1) % ring->n];
         const uint32_t half[4] = {k % 2 == 0 ? a : middle, k % 2 == 0 ? middle : b, p, q};
         iccp_solid_add(edit, half);
-        good = is_kept(edit, half, mesh->corners + 4 * (size_t)ring->simplex[k / 2]);
+        good = iccp_solid_is_positive(edit, half);
     }
     if (!good) {
         mesh->n_simplices = n_before;
@@ -77,7 +69,7 @@ static icc_status cut(iccp_solid_edit *edit, uint32_t a, uint32_t b, size_t *n_c
     return status;
 }
 
-/* ---- chords and inverted tetrahedra ---- */
+/* ---- chords ---- */
 
 typedef struct listed {
     double length;
@@ -95,20 +87,17 @@ static int by_length(const void *a, const void *b)
     return (p->ends[1] > q->ends[1]) - (p->ends[1] < q->ends[1]);
 }
 
-typedef enum edge_kind { CHORDS, OF_INVERTED } edge_kind;
-
-/* Lists the edges of each tetrahedron, including surface edges, which have no ring. Only counts
+/* Lists the edges between boundary points, including surface edges, which have no ring. Only counts
  * them if `edges` is NULL. */
-static size_t list_edges(const iccp_solid_edit *edit, edge_kind kind, listed *edges)
+static size_t list_edges(const iccp_solid_edit *edit, listed *edges)
 {
     const iccp_simplices *mesh = edit->map->mesh;
     size_t n = 0;
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
         const uint32_t *v = mesh->corners + 4 * s;
-        const bool all = kind == OF_INVERTED && !iccp_solid_is_positive(edit, v);
-        for (size_t e = 0; e < 6 && (all || kind == CHORDS); ++e) {
+        for (size_t e = 0; e < 6; ++e) {
             uint32_t a = v[ENDS[e][0]], b = v[ENDS[e][1]];
-            if (kind == CHORDS && (a >= mesh->n_boundary || b >= mesh->n_boundary))
+            if (a >= mesh->n_boundary || b >= mesh->n_boundary)
                 continue;
             if (a > b) {
                 const uint32_t swap = a;
@@ -123,15 +112,15 @@ static size_t list_edges(const iccp_solid_edit *edit, edge_kind kind, listed *ed
     return n;
 }
 
-static icc_status halve_all(iccp_solid_edit *edit, edge_kind kind, size_t *n_cut)
+icc_status iccp_solid_halve_chords(iccp_solid_edit *edit, size_t *n_cut)
 {
     const iccp_memory *memory = &edit->map->memory;
-    const size_t n = list_edges(edit, kind, NULL);
+    const size_t n = list_edges(edit, NULL);
     listed *edges = iccp_alloc(memory, n, sizeof *edges);
     icc_status status = edges != NULL ? iccp_solid_edit_begin(edit) : ICC_ERR_MEMORY;
     *n_cut = 0;
     if (status == ICC_OK) {
-        (void)list_edges(edit, kind, edges);
+        (void)list_edges(edit, edges);
         iccp_sort(edges, n, sizeof *edges, by_length);
     }
     for (size_t k = 0; status == ICC_OK && k < n; ++k)
@@ -141,16 +130,6 @@ static icc_status halve_all(iccp_solid_edit *edit, edge_kind kind, size_t *n_cut
         iccp_solid_edit_end(edit);
     iccp_free(memory, edges);
     return status;
-}
-
-icc_status iccp_solid_halve_chords(iccp_solid_edit *edit, size_t *n_cut)
-{
-    return halve_all(edit, CHORDS, n_cut);
-}
-
-icc_status iccp_solid_halve_inverted(iccp_solid_edit *edit, size_t *n_cut)
-{
-    return halve_all(edit, OF_INVERTED, n_cut);
 }
 
 /* ---- the worst tetrahedra ---- */

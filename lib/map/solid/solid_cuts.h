@@ -8,10 +8,6 @@
  * tetrahedron in common. */
 icc_status iccp_solid_halve_chords(iccp_solid_edit *edit, size_t *n_cut);
 
-/* Cuts inner edges of tetrahedra that are not positive after the map, the longest first, if this
- * may help. Cuts in one pass have no tetrahedron in common. */
-icc_status iccp_solid_halve_inverted(iccp_solid_edit *edit, size_t *n_cut);
-
 /* Cuts the longest edge of each of the worst 20 % of the tetrahedra, by energy above an isometry's.
  * Cuts in one pass have no tetrahedron in common. */
 icc_status iccp_solid_halve_worst(iccp_solid_edit *edit, size_t *n_cut);

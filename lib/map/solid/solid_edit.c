@@ -187,14 +187,9 @@ static int sign_of(const double *points, const uint32_t *v)
                          points + 3 * (size_t)v[2], points + 3 * (size_t)v[3]);
 }
 
-bool iccp_solid_is_positive_before(const iccp_solid_edit *edit, const uint32_t *corners)
-{
-    return sign_of(mesh_of(edit)->points, corners) > 0;
-}
-
 bool iccp_solid_is_positive(const iccp_solid_edit *edit, const uint32_t *corners)
 {
-    return iccp_solid_is_positive_before(edit, corners) && sign_of(edit->map->images, corners) > 0;
+    return sign_of(mesh_of(edit)->points, corners) > 0 && sign_of(edit->map->images, corners) > 0;
 }
 
 /* Returns true if six times the volume is tiny beside the cube of the longest edge. */

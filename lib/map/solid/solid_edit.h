@@ -52,10 +52,8 @@ bool iccp_ring_is_there(const iccp_solid_edit *edit, const iccp_ring *ring);
  * of the surface. */
 bool iccp_solid_across(const iccp_solid_edit *edit, uint32_t t, size_t corner, uint32_t *other);
 
-/* The first returns true if the tetrahedron of four points is positive before and after the map,
- * exactly. The second looks only before the map. */
+/* Returns true if the tetrahedron of four points is positive before and after the map, exactly. */
 bool iccp_solid_is_positive(const iccp_solid_edit *edit, const uint32_t *corners);
-bool iccp_solid_is_positive_before(const iccp_solid_edit *edit, const uint32_t *corners);
 
 /* Returns the energy of such a tetrahedron times its volume, and its volume. HUGE_VAL if it is not
  * positive, or too flat for doubles before or after the map. */

@@ -25,7 +25,7 @@ static icc_status create(icc_map *map, const icc_map_options *options, const icc
 {
     iccp_solid_map *solid;
     (void)err;
-    const icc_status status = iccp_solid_map_create(&solid, map->source, map->target,
+    const icc_status status = iccp_solid_map_create(&solid, map->source_domain, map->target_domain,
                                                     options->iterations, &map->info, env);
     map->state = solid;
     return status;

@@ -1,31 +1,26 @@
-/* Map kind mesh in space: a piecewise linear map on the source's conforming mesh, started from the
+/* Map kind mesh in space: a piecewise linear map on the source's conforming mesh. It needs no
  * charts.
  *
  * Words of this folder
  * - inverted: a tetrahedron whose image is not positive. stuck: one that a repair has left
  *   inverted.
- * - chord: an inner edge that joins two boundary points.
+ * - chord: an inner edge that joins two fixed points. neck: an inner face between three of them.
  * - pocket: a stuck tetrahedron with some rings of neighbours (a cavity).
- * - star-shaped: a region that a point inside, the apex, sees all of.
- * - coat: a collar, the layer of tetrahedra below the surface (coat.h).
  *
  * Invariants
  * - Every tetrahedron of a finished map is positive before and after the map, by exact predicates.
  * - The surface of the mesh never changes; only the inside may get points.
  *
  * Ways to a first map (the table in solid_start.c, in this order)
- * - solid_ways.h: the charts' images, repaired.
- * - solid_ball.h and coat_map.h: by way of a ball, if a point sees all of one surface.
- * - solid_pockets.h: pockets are mapped anew. In pockets only, solid_mend.h adds points where
- *   tetrahedra stay inverted.
+ * - solid_ways.h: harmonic images, repaired.
+ * - solid_pockets.h: pockets are mapped anew.
  * - Later: solid_improve.h lowers the energy, and solid_follow.h follows a moving target.
  *
  * Files that these use
  * - Before all: filled_pair.h fills both surfaces (map/map.c calls it).
- * - A star-shaped target: apex.h finds the point that sees all, coat_raise.h raises vertices
- *   without a point below, coat_mesh.h moves images, and halfspaces.h tells where a vertex may be.
- * - The mesh is changed by solid_edit.h: solid_chords.h cuts chords, solid_cuts.h other edges,
- *   solid_flips.h flips. solid_certificate.h proves, solid_kind.h has the operations.
+ * - solid_marks.h says what is fixed. The mesh is changed by solid_edit.h: solid_chords.h cuts what
+ *   has only fixed corners, solid_cuts.h other edges, solid_flips.h flips. solid_certificate.h
+ *   proves, solid_kind.h has the operations.
  *
  * Begin with solid_map.c and solid_start.c. */
 #ifndef ICCP_SOLID_MAP_H
@@ -34,13 +29,7 @@
 #include "map/kind/kind.h"
 
 /* The strategy that found a first map (solid_start.c). */
-typedef enum iccp_solid_way {
-    ICCP_SOLID_BY_CHARTS = 1,
-    ICCP_SOLID_BY_BALL,
-    ICCP_SOLID_BY_POCKETS,
-    ICCP_SOLID_BY_POINTS,
-    ICCP_SOLID_BY_POINTS_ANEW
-} iccp_solid_way;
+typedef enum iccp_solid_way { ICCP_SOLID_DIRECTLY = 1, ICCP_SOLID_BY_POCKETS } iccp_solid_way;
 
 /* Immutable once made. */
 typedef struct iccp_solid_map {
@@ -60,13 +49,13 @@ static inline iccp_simplicial_map iccp_solid_simplicial(const iccp_solid_map *ma
     return simplicial;
 }
 
-/* Makes a map: the images of the source's mesh by two charts on meshes in space, repaired until
- * every tetrahedron is positive, exactly. If this fails, it uses a mesh without chords and further
- * strategies (solid_start.h). Then the given number of steps lowers the energy; 0 means 8 steps and
- * -1 none. Fills in the mesh's members of `info`. If all repairs fail, info->n_unrepaired is not 0
- * and *out is NULL, with ICC_OK. */
-icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
-                                 const icc_chart *target, int32_t iterations, iccp_map_facts *info,
+/* Makes a map from a source with a mesh: harmonic images, repaired until every tetrahedron is
+ * positive, exactly. If this fails, it uses a mesh without chords, the target's mesh and further
+ * strategies (solid_start.h). Then the given number of steps lowers the energy; 0 means up to 20
+ * and -1 none. Fills in the mesh's members of `info`. If all repairs fail, *out is NULL, with
+ * ICC_OK, and info->n_unrepaired is not 0. */
+icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_domain *source,
+                                 const icc_domain *target, int32_t iterations, iccp_map_facts *info,
                                  const iccp_env *env);
 
 /* ---- making a map piece by piece ---- */

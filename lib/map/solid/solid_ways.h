@@ -5,9 +5,9 @@
 
 #include "map/solid/solid_map.h"
 
-/* A pair of charts, from the one to the other. */
+/* A pair of domains, from the one to the other. The first has a mesh. */
 typedef struct iccp_direction {
-    const icc_chart *source, *target;
+    const icc_domain *source, *target;
 } iccp_direction;
 
 size_t iccp_solid_count_inverted(const iccp_solid_map *map);
@@ -22,12 +22,7 @@ void iccp_solid_take(iccp_solid_map *map, iccp_simplices *mesh, double *images);
 typedef icc_status iccp_solid_strategy(iccp_solid_map *map, iccp_direction way,
                                        iccp_map_facts *info, const iccp_env *env);
 
-/* Maps by the charts on the source's mesh. If that cannot be repaired, it uses a mesh without
- * chords. */
+/* Repairs harmonic images of the source's mesh. If that fails, it uses a mesh without chords. */
 iccp_solid_strategy iccp_solid_fit;
-
-/* Continue on the mesh that iccp_solid_fit() left, from its images or anew from the charts. Points
- * are added where tetrahedra stay inverted (map/solid/solid_mend.h). */
-iccp_solid_strategy iccp_solid_refit, iccp_solid_refit_anew;
 
 #endif

@@ -910,9 +910,10 @@ pub const ICC_MAP_CURVES: i32 = 1;
 /// distortion. Every triangle is exactly positive before and after, which means that it keeps its
 /// orientation. Both boundaries are exactly simple.
 ///
-/// In 3-D the map needs two closed surfaces. They are filled unless they bring a mesh. The map uses the
-/// source's mesh, with images that are chosen and certified as in 2-D. The target's mesh only serves its
-/// chart. Where necessary, inner edges of the source's mesh between boundary vertices are cut.
+/// In 3-D the map needs two closed surfaces. The source is filled unless it brings a mesh. The map is made
+/// without charts and uses the source's mesh, with images that are chosen and certified as in 2-D. Where
+/// necessary, inner edges of the source's mesh between boundary vertices are cut, or the map is made on the
+/// target's mesh.
 ///
 /// In 4-D to 6-D the map is made without charts. Its mesh is that of either domain, or the cells of either
 /// mask, or the cone from one inner vertex to all facets. The cone needs a point inside each boundary that
@@ -950,14 +951,15 @@ pub struct icc_map_options {
     pub size: usize,
     /// `ICC_MAP_*`: this kind, or `ICC_ERR_CERTIFICATE` if no such map is found. 0: the best that is found,
     /// see `icc_map_info.kind`. That is a mesh map for foliation and disc in 2-D, unless both domains bring
-    /// meshes, and for foliation in 3-D. Beyond 3-D it is a mesh map unless `chart` names a method or a
-    /// maximum. It is a curve map in all other cases, or if no mesh map is found
+    /// meshes, and for foliation in 3-D. From 3-D on it is also a mesh map if `chart` names neither a method
+    /// nor a maximum. It is a curve map in all other cases, or if no mesh map is found
     pub kind: i32,
     /// mesh map: at most this many improvement steps on each level of refinement. 0: as long as they pay off.
     /// -1: no improvement
     pub iterations: i32,
     /// For both charts, or NULL. Its `maximum` is the source's. For a mesh map in 2-D, method 0 means disc
-    /// (foliation if a maximum is given), and cells 0 means 20. In 3-D, method 0 means foliation, or field
+    /// (foliation if a maximum is given), and cells 0 means 20. In 3-D, a map gets charts if a method, a
+    /// maximum or kind `ICC_MAP_CURVES` is asked for, and for masks. Method 0 then means foliation, or field
     /// for masks. Beyond 3-D, a mesh map has no charts, so kind `ICC_MAP_MESH` allows neither a method nor a
     /// maximum.
     pub chart: *const icc_chart_options,
@@ -2123,9 +2125,10 @@ extern "C" {
     ///
     /// Both charts are built together, and their maxima are paired.
     ///
-    /// In 3-D, surfaces without a mesh are filled by `icc_domain_fill()` without options, unless the method
-    /// is gradient or field. Method field needs no mesh. A mesh map is found for most pairs in 3-D, but not
-    /// for all. docs/theory/solid-maps.md says what is tried. For 4-D to 6-D docs/theory/higher-maps.md does.
+    /// In 3-D, a source without a mesh is filled by `icc_domain_fill()` without options, unless the method is
+    /// gradient or field. Method field needs no mesh. A target without a mesh is filled for a chart. A mesh
+    /// map is found for most pairs in 3-D, but not for all. docs/theory/solid-maps.md says what is tried. For
+    /// 4-D to 6-D docs/theory/higher-maps.md does.
     ///
     /// - `out` (out): the map; owned by the caller, see `icc_map_free()`
     /// - `source`: the domain before
@@ -2367,8 +2370,8 @@ extern "C" {
         target: *mut f64,
     ) -> icc_status;
 
-    /// The chart of the source; borrowed. NULL for a map made by `icc_map_retarget()`, and for a mesh map
-    /// beyond 3-D.
+    /// The chart of the source; borrowed. NULL for a map made by `icc_map_retarget()`, for a mesh map beyond
+    /// 3-D, and for one in 3-D unless a method or a maximum was asked for.
     pub fn icc_map_source_chart(map: *const icc_map) -> *const icc_chart;
 
     /// The chart of the target; borrowed. NULL like `icc_map_source_chart()`.

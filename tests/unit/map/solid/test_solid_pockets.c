@@ -1,5 +1,5 @@
-/* Which targets have an apex; a coat on a map onto a ball; pockets of a map in which something is
- * inverted. */
+/* Necks and pockets: what is cut where all corners are fixed, and pockets of a map in which something
+ * is inverted. */
 #include "../../../faulty.h"
 #include "../../../meshes.h"
 #include "../../../suite.h"
@@ -7,12 +7,8 @@
 #include "domain/domain.h"
 #include "geometry/simplices.h"
 #include "map/energy/mesh_repair.h"
-#include "map/solid/apex.h"
-#include "map/solid/coat.h"
-#include "map/solid/coat_map.h"
 #include "map/solid/solid_chords.h"
 #include "map/solid/solid_pockets.h"
-#include "match/sphere/sphere.h"
 #include "math/predicates.h"
 
 /* A bar has 2 x 2 x 8 cells. */
@@ -24,7 +20,7 @@ static int is_bar(int32_t dim, const size_t *cell)
     return cell[0] < WIDTH && cell[1] < WIDTH;
 }
 
-/* ---- bodies that the bar becomes: no point inside an arch sees both its ends ---- */
+/* ---- bodies that the bar becomes ---- */
 
 typedef void (*body)(int32_t dim, const double *x, double *y);
 
@@ -37,34 +33,17 @@ static void arch(int32_t dim, const double *x, double *y)
     y[2] = radius * sin(angle);
 }
 
-static void cube(int32_t dim, const double *x, double *y)
-{
-    (void)dim;
-    y[0] = x[0] - 1;
-    y[1] = x[1] - 1;
-    y[2] = x[2] / 4 - 1;
-}
-
 static void ball(int32_t dim, const double *x, double *y)
 {
     double most = 0, square = 0;
-    cube(dim, x, y);
+    (void)dim;
     for (int k = 0; k < 3; ++k) {
+        y[k] = x[k] / (k < 2 ? 1 : 4) - 1;
         most = fmax(most, fabs(y[k]));
         square += y[k] * y[k];
     }
     for (int k = 0; k < 3 && square > 0; ++k)
         y[k] *= most / sqrt(square);
-}
-
-/* Bent in and out: radii of a ball between 0.05 and 1. */
-static void star(int32_t dim, const double *x, double *y)
-{
-    random_source r = {(uint64_t)(x[0] + 10 * x[1] + 100 * x[2])};
-    const double radius = random_between(&r, 0.05, 1);
-    ball(dim, x, y);
-    for (int k = 0; k < 3; ++k)
-        y[k] *= radius;
 }
 
 /* A mesh of a body, without chords, and where its boundary goes. */
@@ -74,29 +53,26 @@ typedef struct problem {
     double *boundary;
 } problem;
 
-static problem problem_of_cells(size_t length, int (*is_cell)(int32_t, const size_t *), body source,
-                                body target)
+static problem problem_of(body source, body target)
 {
     problem p;
     icc_error err = {.size = sizeof err};
     iccp_env env;
-    test_mesh bar = mesh_cells(3, length, is_cell), bent = mesh_moved(&bar, source);
+    test_mesh bar = mesh_cells(3, LENGTH, is_bar), bent = mesh_moved(&bar, source);
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     ck_assert_msg(mesh_domain(&p.source, &bent, NULL, &err) == ICC_OK, "%s", err.message);
-    ck_assert_int_eq(iccp_solid_cut_chords(&p.mesh, p.source->mesh, p.source->facets, &env),
-                     ICC_OK);
+    const iccp_solid_marks marks = {.n_boundary = p.source->n_vertices,
+                                    .n_facets = p.source->n_facets,
+                                    .facets = p.source->facets};
+    ck_assert_int_eq(iccp_solid_cut_chords(&p.mesh, p.source->mesh, &marks, &env), ICC_OK);
     ck_assert_ptr_nonnull(p.mesh);
+    ck_assert_int_eq(iccp_simplices_join(p.mesh, marks.n_facets, marks.facets, NULL), ICC_OK);
     p.boundary = mesh_alloc(3 * p.mesh->n_boundary, sizeof *p.boundary);
     for (size_t v = 0; v < p.mesh->n_boundary; ++v)
         target(3, bar.vertices + 3 * p.source->mesh->given[v], p.boundary + 3 * v);
     mesh_free(&bar);
     mesh_free(&bent);
     return p;
-}
-
-static problem problem_of(body source, body target)
-{
-    return problem_of_cells(LENGTH, is_bar, source, target);
 }
 
 static void free_problem(problem *p)
@@ -156,141 +132,6 @@ static void check_result(const problem *p, const double *boundary, iccp_simplice
     iccp_free(&mesh->memory, images);
     iccp_simplices_free(mesh);
 }
-
-/* ---- the apex ---- */
-
-static bool has_apex(body target)
-{
-    problem p = problem_of(arch, target);
-    iccp_env env;
-    bool sees;
-    double apex[3];
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_find_apex(&sees, apex, p.mesh, p.boundary, &env.memory), ICC_OK);
-    free_problem(&p);
-    return sees;
-}
-
-START_TEST(apices)
-{
-    ck_assert(has_apex(ball));
-    ck_assert(has_apex(cube));
-    ck_assert(has_apex(star));
-    ck_assert(!has_apex(arch));
-}
-END_TEST
-
-/* ---- a coat on a map onto a ball ---- */
-
-/* Four cells in a row with two corners, all at one vertex: its faces look up and down. */
-static int is_chain(int32_t dim, const size_t *cell)
-{
-    (void)dim;
-    return cell[0] >= cell[1] && cell[1] >= cell[2];
-}
-
-static void same(int32_t dim, const double *x, double *y)
-{
-    memcpy(y, x, (size_t)dim * sizeof *y);
-}
-
-/* The chain's mesh, with its drawing on the sphere, onto the ball; and that drawing on a cube. */
-typedef struct dress {
-    problem p;
-    double *cube;
-    iccp_simplices *mesh;
-    double *images;
-} dress;
-
-static dress dress_of(void)
-{
-    dress d = {.p = problem_of_cells(2, is_chain, same, same)};
-    iccp_env env;
-    const icc_domain *domain = d.p.source;
-    const size_t n = domain->n_vertices;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_sphere_draw(d.p.boundary, n, domain->vertices, domain->n_facets,
-                                      domain->facets, &env, NULL),
-                     ICC_OK);
-    d.cube = mesh_alloc(3 * n, sizeof *d.cube);
-    for (size_t v = 0; v < n; ++v) {
-        const double *x = d.p.boundary + 3 * v;
-        const double most = fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2])));
-        for (int k = 0; k < 3; ++k)
-            d.cube[3 * v + (size_t)k] = x[k] / most;
-    }
-    ck_assert_int_eq(repair(&d.mesh, &d.images, d.p.mesh, d.p.boundary, &env), ICC_OK);
-    ck_assert_ptr_nonnull(d.mesh);
-    return d;
-}
-
-static void free_dress(dress *d)
-{
-    iccp_free(&d->mesh->memory, d->images);
-    iccp_simplices_free(d->mesh);
-    free(d->cube);
-    free_problem(&d->p);
-}
-
-/* Leaves the map onto the ball. */
-static icc_status put_on(const dress *d, iccp_simplices **mesh, double **images,
-                         const iccp_env *env)
-{
-    static const double apex[3] = {0, 0, 0};
-    const size_t n = 3 * d->mesh->n_points;
-    bool done = true;
-    icc_status status = iccp_simplices_copy(mesh, d->mesh, &env->memory);
-    *images = iccp_alloc(&env->memory, n, sizeof **images);
-    if (status == ICC_OK && *images == NULL)
-        status = ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        memcpy(*images, d->images, n * sizeof **images);
-        status = iccp_coat_put_on(mesh, images, d->cube, apex, &done, env);
-    }
-    ck_assert(done || status != ICC_OK);
-    return status;
-}
-
-/* One vertex has no point below. */
-START_TEST(coat)
-{
-    dress d = dress_of();
-    iccp_simplices *mesh;
-    double *images;
-    iccp_coat c;
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_coat_create(&c, d.mesh, &env.memory), ICC_OK);
-    ck_assert_uint_eq(c.n_below, d.mesh->n_boundary - 1);
-    ck_assert_uint_eq(c.core->n_simplices, d.mesh->n_simplices);
-    ck_assert_uint_eq(count_positive(c.core, c.core->points), c.core->n_simplices);
-    iccp_coat_free(&c);
-    ck_assert_int_eq(put_on(&d, &mesh, &images, &env), ICC_OK);
-    ck_assert_uint_gt(mesh->n_simplices, d.mesh->n_simplices);
-    check_result(&d.p, d.cube, mesh, images);
-    free_dress(&d);
-}
-END_TEST
-
-static icc_status put_on_once(const icc_env *given, icc_error *err, void *argument)
-{
-    iccp_simplices *mesh;
-    double *images;
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, given, err), ICC_OK);
-    const icc_status status = put_on(argument, &mesh, &images, &env);
-    iccp_free(&env.memory, images);
-    iccp_simplices_free(mesh);
-    return iccp_fail(err, status, "no map");
-}
-
-START_TEST(coat_failures)
-{
-    dress d = dress_of();
-    faulty_sweep(put_on_once, &d);
-    free_dress(&d);
-}
-END_TEST
 
 /* ---- pockets ---- */
 
@@ -375,6 +216,43 @@ static icc_status mend_once(const icc_env *given, icc_error *err, void *argument
     return iccp_fail(err, status, "not mended");
 }
 
+/* Two tetrahedra with a common face: three fixed points around it, and it is no facet. All other
+ * faces are. It is cut into three, and no tetrahedron with fixed corners is left. */
+START_TEST(necks_are_cut)
+{
+    double points[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, 1, 0.25, 0.25, -1};
+    uint32_t corners[8] = {0, 2, 1, 3, 0, 1, 2, 4};
+    static const uint32_t FACETS[18] = {0, 1, 3, 1, 2, 3, 2, 0, 3, 1, 0, 4, 2, 1, 4, 0, 2, 4};
+    iccp_env env;
+    iccp_simplices *cut;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    iccp_simplices mesh = {.memory = env.memory,
+                           .dim = 3,
+                           .n_points = 5,
+                           .n_boundary = 5,
+                           .n_simplices = 2,
+                           .points = points,
+                           .corners = corners};
+    ck_assert_int_eq(iccp_simplices_orient(&mesh, NULL), ICC_OK);
+    iccp_solid_marks marks = {.n_boundary = 5, .n_facets = 6, .facets = FACETS};
+    ck_assert_int_eq(iccp_solid_cut_chords(&cut, &mesh, &marks, &env), ICC_OK);
+    ck_assert_ptr_nonnull(cut);
+    ck_assert_uint_eq(cut->n_points, 6);
+    ck_assert_uint_eq(cut->n_simplices, 6);
+    ck_assert_int_eq(iccp_simplices_join(cut, 6, FACETS, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_simplices_check_shape(cut, NULL), ICC_OK);
+    iccp_simplices_free(cut);
+    /* A marked face stays, so each of the tetrahedra beside it gets a point. */
+    static const uint32_t ALL[21] = {0, 1, 3, 1, 2, 3, 2, 0, 3, 1, 0, 4, 2, 1, 4, 0, 2, 4, 0, 1, 2};
+    marks = (iccp_solid_marks){.n_boundary = 5, .n_facets = 7, .facets = ALL};
+    ck_assert_int_eq(iccp_solid_cut_chords(&cut, &mesh, &marks, &env), ICC_OK);
+    ck_assert_ptr_nonnull(cut);
+    ck_assert_uint_eq(cut->n_points, 7);
+    ck_assert_uint_eq(cut->n_simplices, 8);
+    iccp_simplices_free(cut);
+}
+END_TEST
+
 START_TEST(pockets)
 {
     problem p = problem_of(arch, ball);
@@ -407,12 +285,10 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("coats and pockets");
+    Suite *suite = suite_create("necks and pockets");
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 300);
-    tcase_add_test(tests, apices);
-    tcase_add_test(tests, coat);
-    tcase_add_test(tests, coat_failures);
+    tcase_add_test(tests, necks_are_cut);
     tcase_add_test(tests, pockets);
     tcase_add_test(tests, pockets_in_vain);
     suite_add_tcase(suite, tests);
