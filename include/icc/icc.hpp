@@ -268,12 +268,13 @@ struct places {
     std::vector<double> bary;         /**< `dim` barycentric coordinates on it for each */
 };
 
-/** A hole, line, point or region inside a domain of the plane: domain::with_features(). `icc::feature::hole({..})` and
- *  its siblings borrow the coordinates. */
+/** A hole, line, point or region inside a domain: domain::with_features() and domain::solid(). `icc::feature::hole({..})`
+ *  and its siblings borrow the coordinates. */
 struct feature {
     std::int32_t kind;           /**< `ICC_FEATURE_*` */
-    view<const double> vertices; /**< 2 coordinates each */
-    double radius = 0;           /**< point: its size, or 0 */
+    view<const double> vertices; /**< 2 coordinates each, or 3 in a solid */
+    double radius = 0;           /**< point of the plane: its size, or 0 */
+    view<const std::uint32_t> facets{}; /**< hole or region of a solid: 3 of its vertices each */
 
     /** A simple polygon that is cut out. */
     static feature hole(view<const double> vertices) noexcept { return {ICC_FEATURE_HOLE, vertices, 0}; }
@@ -289,7 +290,35 @@ struct feature {
     {
         return {ICC_FEATURE_POINT, vertex, radius};
     }
+    /** A closed surface in a solid whose inside is empty. */
+    static feature hollow(view<const double> vertices, view<const std::uint32_t> facets) noexcept
+    {
+        return {ICC_FEATURE_HOLE, vertices, 0, facets};
+    }
+    /** A closed surface in a solid with the solid on both sides. */
+    static feature surface(view<const double> vertices, view<const std::uint32_t> facets) noexcept
+    {
+        return {ICC_FEATURE_REGION, vertices, 0, facets};
+    }
 };
+
+/// @cond
+inline std::vector<icc_feature> listed(const std::vector<feature> &features, std::int32_t dim)
+{
+    std::vector<icc_feature> all;
+    all.reserve(features.size());
+    for (const feature &f : features) {
+        all.push_back(sized<icc_feature>());
+        all.back().kind = f.kind;
+        all.back().n_vertices = count(f.vertices, dim);
+        all.back().vertices = f.vertices.data();
+        all.back().radius = f.radius;
+        all.back().n_facets = count(f.facets, 3);
+        all.back().facets = f.facets.data();
+    }
+    return all;
+}
+/// @endcond
 
 /** A shape: its boundary, and what lies inside. */
 class domain : public handle<icc_domain, icc_domain_free> {
@@ -314,18 +343,21 @@ public:
     static domain with_features(view<const double> outer, const std::vector<feature> &features,
                                 const env &e = {})
     {
-        std::vector<icc_feature> all;
-        all.reserve(features.size());
-        for (const feature &f : features) {
-            all.push_back(sized<icc_feature>());
-            all.back().kind = f.kind;
-            all.back().n_vertices = count(f.vertices, 2);
-            all.back().vertices = f.vertices.data();
-            all.back().radius = f.radius;
-        }
+        const std::vector<icc_feature> all = listed(features, 2);
         return domain(e, [&](auto out, auto... rest) {
             return icc_domain_create_features(out, count(outer, 2), outer.data(), all.size(), all.data(),
                                               rest...);
+        });
+    }
+
+    /** Makes a solid in 3-D with voids, surfaces, lines and points inside: icc_domain_create_solid(). */
+    static domain solid(view<const double> vertices, view<const std::uint32_t> facets,
+                        const std::vector<feature> &features, const env &e = {})
+    {
+        const std::vector<icc_feature> all = listed(features, 3);
+        return domain(e, [&](auto out, auto... rest) {
+            return icc_domain_create_solid(out, count(vertices, 3), vertices.data(), count(facets, 3),
+                                           facets.data(), all.size(), all.data(), rest...);
         });
     }
 
@@ -410,6 +442,14 @@ public:
         own.vertices = result.first.data();
         own.cells = result.second.data();
         call({}, [&](auto...) { return icc_domain_get_mesh(get(), &own); });
+        return result;
+    }
+
+    /** The region of each simplex of mesh(): icc_domain_get_regions(). */
+    std::vector<std::uint32_t> mesh_regions() const
+    {
+        std::vector<std::uint32_t> result(info().n_mesh_simplices);
+        call({}, [&](auto...) { return icc_domain_get_regions(get(), result.data()); });
         return result;
     }
 

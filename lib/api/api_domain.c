@@ -114,10 +114,12 @@ icc_status icc_domain_get_mesh(const icc_domain *domain, icc_mesh *mesh)
 icc_status icc_domain_get_regions(const icc_domain *domain, uint32_t *regions)
 {
     ICCP_ENTER;
-    if (domain == NULL || regions == NULL)
+    if (domain == NULL)
         return ICC_ERR_ARGUMENT;
     if (domain->mesh == NULL)
         return ICC_ERR_UNSUPPORTED;
+    if (regions == NULL)
+        return ICC_ERR_ARGUMENT;
     for (size_t s = 0; s < domain->mesh->n_simplices; ++s)
         regions[s] = domain->mesh->region != NULL ? domain->mesh->region[s] : 0;
     return ICC_OK;

@@ -56,6 +56,22 @@ bool is_times(const std::vector<double> &a, double factor, const std::vector<dou
     return all;
 }
 
+void solids_have_features()
+{
+    const std::vector<double> outer{0, 0, 0, 8, 0, 0, 0, 8, 0, 0, 0, 8};
+    const std::vector<double> inner{1, 1, 1, 2, 1, 1, 1, 2, 1, 1, 1, 2};
+    const std::vector<double> point{3, 1, 1}, line{1, 1, 3, 2, 1, 3};
+    const std::vector<std::uint32_t> faces{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    const auto solid = icc::domain::solid(outer, faces,
+                                          {icc::feature::hollow(inner, faces), icc::feature::line(line),
+                                           icc::feature::point(point)});
+    const auto info = solid.info();
+    check(info.n_voids == 1 && info.n_lines == 1 && info.n_points == 1, "features of a solid");
+    check(solid.features()[0].n_facets == 4 && solid.facets().size() == 24, "facets of a void");
+    const auto err = thrown<icc::error>([&] { (void)solid.mesh_regions(); }, none);
+    check(err.status == ICC_ERR_UNSUPPORTED, "no regions without a mesh");
+}
+
 void maps_points()
 {
     struct point {
@@ -486,6 +502,7 @@ void saves()
 
 int main()
 {
+    solids_have_features();
     maps_points();
     makes_other_objects();
     reports_errors();

@@ -18,6 +18,23 @@ function featuresOf({ regions = [], holes = [], lines = [], points = [], radii =
     ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
 }
 
+const solidFeature = (kind, points) => {
+  const vertices = flat(points, 3);
+  return { kind, nVertices: vertices.length / 3, vertices, radius: 0 };
+};
+
+const innerSurface = (kind, { vertices, facets }) => {
+  const f = indices(facets, 3);
+  return { ...solidFeature(kind, vertices), nFacets: f.length / 3, facets: f };
+};
+
+/** The features of a solid, in the order voids, surfaces, lines, points. */
+function solidFeaturesOf({ voids = [], surfaces = [], lines = [], points = [] }) {
+  return [...voids.map((surface) => innerSurface('hole', surface)),
+    ...surfaces.map((surface) => innerSurface('region', surface)), ...lines.map((line) => solidFeature('line', line)),
+    ...points.map((point) => solidFeature('point', point))];
+}
+
 /** Makes a polygon that the caller frees. If its name is that of a side, errors name that side. */
 function polygonOf(Domain, name, shape) {
   if (typeof shape !== 'object' || shape === null)
@@ -67,6 +84,12 @@ export function domainOf(core) {
       return new Domain(core.made('icc_domain_create', dim, v.length / dim, v, f.length / dim, f));
     }
 
+    /** A solid with features: { voids, surfaces, lines, points }. Voids and surfaces are closed: { vertices, facets }. */
+    static solid(vertices, facets, features = {}) {
+      const v = flat(vertices, 3), f = indices(facets, 3), inside = solidFeaturesOf(features);
+      return new Domain(core.made('icc_domain_create_solid', v.length / 3, v, f.length / 3, f, inside.length, inside));
+    }
+
     /** A conforming mesh of the inside. `facets` may give the order of the boundary's facets. */
     static mesh(vertices, simplices, { dim = 3, facets = null } = {}) {
       const v = flat(vertices, dim), s = indices(simplices, dim + 1);
@@ -104,7 +127,14 @@ export function domainOf(core) {
       return out;
     }
 
-    /** The features inside: [{ kind, orientation, firstVertex, nVertices, firstFacet }]. */
+    /** The region of each simplex of mesh(): 0, or k within the k-th surface of a solid. */
+    meshRegions() {
+      const regions = new Uint32Array(this.info.nMeshSimplices);
+      core.call('icc_domain_get_regions', this, regions);
+      return regions;
+    }
+
+    /** The features inside: [{ kind, orientation, firstVertex, nVertices, firstFacet, nFacets, genus, around }]. */
     features() {
       return Array.from({ length: this.info.nFeatures }, (_, i) => core.info('icc_domain_get_feature', this, i));
     }

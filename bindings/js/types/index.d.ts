@@ -57,16 +57,29 @@ export interface Domain extends Handle {
   boundary(): { vertices: Float64Array; facets: Uint32Array };
   /** The mesh of the inside, if the domain has one. */
   mesh(): { vertices: Float64Array; simplices: Uint32Array };
+  /** The region of each simplex of the mesh: 0, or k within the k-th surface of a solid. */
+  meshRegions(): Uint32Array;
   features(): FeatureInfo[];
   /** Tells where points lie. `where` is 1 inside, 2 on the boundary, 3 outside. `facet` is the nearest facet, and `bary` has
    *  the barycentric coordinates of the nearest point on it. */
   locate(points: Points): { where: Int32Array; facet: Uint32Array; bary: Float64Array };
+}
+/** A closed surface of triangles in its own vertices. */
+export interface ClosedSurface { vertices: Points; facets: Indices }
+/** Features of a solid, numbered in this order. A void is empty inside, a surface is not. */
+export interface SolidFeatures {
+  voids?: readonly ClosedSurface[];
+  surfaces?: readonly ClosedSurface[];
+  lines?: readonly Points[];
+  points?: readonly Points[];
 }
 export interface DomainClass {
   /** A simple polygon, which may be a closed ring, with features. The outline may be null if there are regions. */
   polygon(outline: Points | null, features?: Features): Domain;
   /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
   surface(vertices: Points, facets: Indices, dim?: number): Domain;
+  /** A solid with voids, surfaces, lines and points inside. */
+  solid(vertices: Points, facets: Indices, features?: SolidFeatures): Domain;
   /** A mesh of the inside. `facets` may give the order of the boundary's facets. */
   mesh(vertices: Points, simplices: Indices, options?: { dim?: number; facets?: Indices | null }): Domain;
   /** A mask of cells: `shape` cells along the axes, the first axis fastest. */

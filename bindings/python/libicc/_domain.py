@@ -28,6 +28,7 @@ from ._core import (
     points_of,
 )
 from ._errors import blaming, check
+from ._solid import make_solid, solid_features, solid_features_in_order
 
 if TYPE_CHECKING:
     from ._types import ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
@@ -63,6 +64,10 @@ class Domain(Handle):
         regions: polygons that are part of the shape: further outlines, or islands in holes
         holes: polygons inside a polygon that are not part of the shape; only without ``facets``
         lines: polylines inside it, (n, 2) each; two vertices make a bone
+        voids: closed surfaces inside a solid in 3-D that bound holes: pairs of vertices (n, 3) and triangles (m, 3)
+        surfaces: closed surfaces inside a solid, with the solid on both sides: pairs as for voids. A solid comes with
+            ``facets``. Its lines and points have 3 coordinates, and its features are numbered in the order voids,
+            surfaces, lines, points
         points: points inside it, (n, 2). Features are numbered in this order: regions, holes, lines, points. A `Map` of
             kind "mesh" takes each feature to the one of the same number, vertex by vertex. Other kinds refuse features.
         radii: sizes of points, one for each or the same for all; 0: no size. The circle around a point with a size
@@ -70,7 +75,7 @@ class Domain(Handle):
             other features.
         features: instead of these: pairs of a kind ("region", "hole", "line" or "point") and vertices, in the order of
             their numbers. This is the form of another domain's `features`, so you can build a domain again,
-            including the circles of radii.
+            including the circles of radii. Surfaces of a solid are "hole" and "region", with pairs instead of vertices.
         progress, threads: see `libicc.Progress`. There is one thread per processor by default. Results are the same for
             every number
 
@@ -83,9 +88,23 @@ class Domain(Handle):
     def __init__(self, vertices: Optional[ArrayLike], facets: Optional[ArrayLike] = None, *,
                  regions: Iterable[ArrayLike] = (), holes: Iterable[ArrayLike] = (), lines: Iterable[ArrayLike] = (),
                  points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-                 features: Optional[Iterable[Tuple[str, ArrayLike]]] = None,
+                 voids: Iterable[Any] = (), surfaces: Iterable[Any] = (),
+                 features: Optional[Iterable[Tuple[str, Any]]] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         regions, holes, lines = list(regions), list(holes), list(parts_of(lines) if is_geometry(lines) else lines)
+        voids, surfaces = list(voids), list(surfaces)
+        if facets is not None and np.ndim(vertices) == 2 and np.shape(vertices)[1] == 3:
+            own_solid = solid_features(voids, surfaces, lines, points)
+            if features is not None:
+                if own_solid:
+                    raise ValueError("features come instead of voids, surfaces, lines and points")
+                own_solid = solid_features_in_order(features)
+            if regions or holes or radii is not None:
+                raise ValueError("a solid has voids and surfaces instead of holes, regions and radii")
+            self._take(make_solid(vertices, facets, own_solid, progress, threads))
+            return
+        if voids or surfaces:
+            raise ValueError("voids and surfaces lie in a solid, which has facets and vertices of 3 coordinates")
         has_outline = vertices is not None or not (regions or features is not None)
         vertices = _plain(vertices) if has_outline else np.empty((0, 2))
         has_features = bool(regions or holes or lines or features is not None or np.size(() if points is None else points))
@@ -187,9 +206,17 @@ class Domain(Handle):
         return vertices, simplices
 
     @property
+    def mesh_regions(self) -> Indices:
+        """The region of each simplex of the mesh: 0, or k within the k-th feature of kind "region" of a solid."""
+        regions = np.empty(self._info("domain_get_info", "domain_info").n_mesh_simplices, dtype=np.uint32)
+        check(lib.domain_get_regions(self, address(regions)))
+        return regions
+
+    @property
     def info(self) -> SimpleNamespace:
         """dim, orientation, n_vertices, n_facets, lower, upper, measure, n_features,
-        n_mesh_vertices, n_mesh_simplices, n_junctions, n_pieces, n_faces."""
+        n_mesh_vertices, n_mesh_simplices, n_junctions, n_pieces, n_faces, n_voids, genus, n_holes, n_lines, n_points,
+        n_regions."""
         info = self._info("domain_get_info", "domain_info")
         return fields(info, info.dim)
 
@@ -212,13 +239,17 @@ class Domain(Handle):
         return facets
 
     @property
-    def features(self) -> List[Tuple[str, Floats]]:
-        """The features, in order: "region", "hole", "line" or "point", and its vertices."""
+    def features(self) -> List[Tuple[str, Any]]:
+        """The features, in order: "region", "hole", "line" or "point", and its vertices. A surface of a solid has a pair
+        of vertices and triangles, in its own numbers."""
         vertices, features = self.vertices, []
+        facets = self.facets if self.dim == 3 else np.empty((0, 3), dtype=np.uint32)
         for number in range(self._info("domain_get_info", "domain_info").n_features):
             info = new("feature_info")
             check(lib.domain_get_feature(self, number, ctypes.addressof(info)))
-            own = vertices[info.first_vertex:info.first_vertex + info.n_vertices]
+            own: Any = vertices[info.first_vertex:info.first_vertex + info.n_vertices]
+            if self.dim == 3 and info.n_facets > 0:
+                own = own, facets[info.first_facet:info.first_facet + info.n_facets] - np.uint32(info.first_vertex)
             features.append((name_of(info.kind, FEATURES) or "", own))
         return features
 

@@ -70,10 +70,12 @@ def test_what_is_no_shape(shape):
 
 def test_features_in_space():
     for features in ({"points": [[.2, .2, .2]]}, {"lines": [[[.2, .2, .2], [.5, .5, .5]]]}, {"holes": [CUBE]}):
-        with pytest.raises(ValueError, match="polygons in the plane"):
-            libicc.Domain(CUBE, FACES, **features)
         with pytest.raises(ValueError):
             libicc.Domain(CUBE, **features)
+    with pytest.raises(ValueError, match="a solid has voids and surfaces"):
+        libicc.Domain(CUBE, FACES, holes=[CUBE])
+    with pytest.raises(ValueError, match="polygons in the plane"):
+        libicc.Domain(SQUARE, [[0, 1], [1, 2], [2, 3], [3, 0]], points=[[.2, .2]])
     assert libicc.Domain(CUBE, FACES, points=[]).dim == 3
 
 

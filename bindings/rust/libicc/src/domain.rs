@@ -93,6 +93,39 @@ impl Feature<'_> {
     }
 }
 
+/// A void, surface, line or point inside a solid: x, y and z of each vertex, and 3 vertices of its own for each triangle.
+/// See [`Domain::solid`].
+#[derive(Clone, Copy, Debug)]
+pub enum SolidFeature<'a> {
+    /// A closed surface whose inside is empty.
+    Void(&'a [f64], &'a [u32]),
+    /// A closed surface with the solid on both sides.
+    Surface(&'a [f64], &'a [u32]),
+    /// A polyline that does not close.
+    Line(&'a [f64]),
+    /// One vertex.
+    Point(&'a [f64; 3]),
+}
+
+impl SolidFeature<'_> {
+    fn raw(&self) -> Result<sys::icc_feature> {
+        let (kind, vertices, facets): (i32, &[f64], Option<&[u32]>) = match self {
+            SolidFeature::Void(vertices, facets) => (sys::ICC_FEATURE_HOLE, vertices, Some(facets)),
+            SolidFeature::Surface(vertices, facets) => (sys::ICC_FEATURE_REGION, vertices, Some(facets)),
+            SolidFeature::Line(vertices) => (sys::ICC_FEATURE_LINE, vertices, None),
+            SolidFeature::Point(vertex) => (sys::ICC_FEATURE_POINT, &vertex[..], None),
+        };
+        Ok(sys::icc_feature {
+            kind,
+            n_vertices: count(vertices, 3, "the vertices of a feature")?,
+            vertices: vertices.as_ptr(),
+            n_facets: facets.map_or(Ok(0), |facets| count(facets, 3, "the facets of a feature"))?,
+            facets: pointer(facets),
+            ..Default::default()
+        })
+    }
+}
+
 impl Domain {
     /// The inside of a simple polygon: n * 2 coordinates, in either direction; the last vertex joins the first.
     ///
@@ -131,6 +164,50 @@ impl Domain {
             // SAFETY: the counts are those of the slices.
             unsafe {
                 sys::icc_domain_create_features(out, n, outer.as_ptr(), raw.len(), raw.as_ptr(), env, err)
+            }
+        })
+    }
+
+    /// A solid in 3-D with voids, surfaces, lines and points inside. The outer surface has n * 3 coordinates and m * 3
+    /// vertex indices.
+    ///
+    /// ```
+    /// use libicc::{Domain, Env, SolidFeature};
+    /// let outer = [0.0, 0.0, 0.0, 8.0, 0.0, 0.0, 0.0, 8.0, 0.0, 0.0, 0.0, 8.0];
+    /// let inner = [1.0, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 2.0];
+    /// let faces = [0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3];
+    /// let features = [SolidFeature::Void(&inner, &faces), SolidFeature::Point(&[3.0, 1.0, 1.0])];
+    /// let solid = Domain::solid(&outer, &faces, &features, &mut Env::new())?;
+    /// assert_eq!((solid.info().n_voids, solid.info().n_points), (1, 1));
+    /// # Ok::<(), libicc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Status::BOUNDARY`](crate::Status::BOUNDARY), [`Status::OUTSIDE`](crate::Status::OUTSIDE) or
+    /// [`Status::TOPOLOGY`](crate::Status::TOPOLOGY), with the feature at fault as `index`.
+    pub fn solid(
+        vertices: &[f64],
+        facets: &[u32],
+        features: &[SolidFeature<'_>],
+        env: &mut Env<'_>,
+    ) -> Result<Domain> {
+        let n = count(vertices, 3, "vertices")?;
+        let n_facets = count(facets, 3, "facets")?;
+        let raw = features.iter().map(SolidFeature::raw).collect::<Result<Vec<_>>>()?;
+        Domain::make(env, |out, env, err| {
+            // SAFETY: the counts are those of the slices.
+            unsafe {
+                sys::icc_domain_create_solid(
+                    out,
+                    n,
+                    vertices.as_ptr(),
+                    n_facets,
+                    facets.as_ptr(),
+                    raw.len(),
+                    raw.as_ptr(),
+                    env,
+                    err,
+                )
             }
         })
     }
@@ -225,6 +302,14 @@ impl Domain {
         // SAFETY: there is room for all.
         check(unsafe { sys::icc_domain_get_mesh(self.as_ptr(), &mut own) })?;
         Ok((vertices, simplices))
+    }
+
+    /// The region of each simplex of [`Domain::mesh`]: 0, or k within the k-th surface of a solid.
+    pub fn mesh_regions(&self) -> Result<Vec<u32>> {
+        let mut regions = vec![0; self.info().n_mesh_simplices];
+        // SAFETY: there is room for all.
+        check(unsafe { sys::icc_domain_get_regions(self.as_ptr(), regions.as_mut_ptr()) })?;
+        Ok(regions)
     }
 
     /// Dimension, counts, bounding box, measure.

@@ -67,6 +67,7 @@ pub use coverage::{
 };
 pub use domain::{
     boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Feature, FeatureInfo, Place,
+    SolidFeature,
 };
 pub use env::Env;
 pub use error::{Error, Item, Result, Side, Status};
