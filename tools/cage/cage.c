@@ -68,8 +68,11 @@ void cage_free(cage *c)
     free(c->facets);
     free(c->facet_lines);
     free(c->cells);
-    for (size_t i = 0; i < c->n_features; i++)
+    for (size_t i = 0; i < c->n_features; i++) {
         free(c->features[i].points);
+        free(c->features[i].label);
+        free(c->features[i].facets);
+    }
     for (size_t i = 0; i < c->n_ties; i++)
         free(c->ties[i].points);
     for (size_t i = 0; i < c->n_more; i++)

@@ -56,7 +56,8 @@ typedef struct cage_choice {
                                 moved, it gets vertices and faces in the same order */
 } cage_choice;
 
-/* A feature of a cage in the plane. The kinds are those of icc_feature, and ties. */
+/* A feature of a cage. The kinds are those of icc_feature, and ties. In space a hole is a void, and a
+ * region is a surface with the domain on both sides. */
 enum { CAGE_TIE = 100 };
 
 typedef struct cage_feature {
@@ -69,9 +70,12 @@ typedef struct cage_feature {
     size_t ring;     /* of a region or outline, which may have several: its number, from 0 */
     size_t item;     /* of such a ring: its number among the holes, or the others, from 1. Else 0 */
     size_t n;
-    double *points; /* 2 n */
-    double radius;  /* of a point; 0 if it has none */
-    size_t line;    /* of its first vertex, or 0 */
+    double *points;   /* n vertices */
+    double radius;    /* of a point; 0 if it has none */
+    size_t line;      /* of its first vertex, or 0 */
+    char *label;      /* in space: its name in the file, or NULL */
+    size_t n_facets;  /* of a surface in space */
+    uint32_t *facets; /* 3 n_facets of its own vertices */
 } cage_feature;
 
 typedef struct cage {

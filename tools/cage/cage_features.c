@@ -19,6 +19,10 @@ static const char *kind_name(int32_t kind)
 /* The first outer ring of a region has the region's name. */
 const char *feature_name(feature_text out, const cage_feature *f)
 {
+    if (f->label != NULL) {
+        snprintf(out, sizeof(feature_text), "%s", f->label);
+        return out;
+    }
     const char *whole = f->of_outline ? "polygon" : "region";
     bool of_whole = f->item > 0 && f->ring > 0 && !(f->kind == ICC_FEATURE_REGION && f->item == 1);
     if (of_whole)

@@ -1,5 +1,6 @@
 /* Reads surfaces from the file formats of meshes. */
 #include "base/allocate.h"
+#include "cage/cage_parts.h"
 #include "cage/cage_readers.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_flat.h"
@@ -42,6 +43,18 @@ static void take_surface(cage *out, mesh_file *m)
     m->triangle_lines = NULL;
 }
 
+/* Takes a surface, or the surfaces and lines of a solid apart. */
+static bool take_parts(cage *out, mesh_file *m, problem *wrong)
+{
+    bool is_divided = false;
+    size_t *lines = vertex_lines(m);
+    bool good = cage_take_parts(out, m, lines, &is_divided, wrong);
+    free(lines);
+    if (good && !is_divided)
+        take_surface(out, m);
+    return good;
+}
+
 bool cage_read_surface(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
                        problem *wrong)
 {
@@ -51,7 +64,7 @@ bool cage_read_surface(cage *out, const cage_choice *choice, size_t dim, const c
     if (good && (m.dim == 2 || mesh_has_bodies(&m)))
         good = cage_take_mesh(out, &m, choice->like, wrong);
     else if (good)
-        take_surface(out, &m);
+        good = take_parts(out, &m, wrong);
     out->n_heights = n_heights;
     mesh_free(&m);
     return good && (out->dim == 2 || out->n_facets > 0 ||

@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 #include "base/system.h"
+#include "job/mesh_out.h"
 #include "job/point_file.h"
 #include "job/require.h"
 #include "job/ties_file.h"
@@ -96,9 +97,15 @@ int map_apply(job *j)
     if (result == DONE)
         result = ties_check(j);
     if (result == DONE)
+        result = mesh_out_check(j);
+    if (result == DONE)
         result = job_make_map(j);
     if (result == DONE)
         result = require_maps(j);
+    if (result == DONE)
+        result = mesh_out_write(j);
+    if (result == DONE && mesh_out_is_wanted(j) && j->args->points == NULL)
+        return report_points(j, 0, 0, 0);
     if (result == DONE) {
         table_form form = rows_of_points(job_dim(j));
         result = rows_read(&points, j->args->points, &form);

@@ -96,7 +96,7 @@ static void print_zsh_option(const option *o)
     if (option_takes_word(o)) {
         fputs(":", stdout);
         print_quoted(o->value, "[]:");
-        fputs(o->choices != NULL ? ":(" : o->kind == OPTION_TEXT ? ":_files" : ": ", stdout);
+        fputs(o->choices != NULL ? ":(" : option_is_file(o) ? ":_files" : ": ", stdout);
         if (o->choices != NULL) {
             print_names(o->choices);
             fputs(")", stdout);
@@ -156,7 +156,7 @@ static void print_fish_option(const command *c, const option *o)
         print_names(o->choices);
         fputs("'", stdout);
     } else if (option_takes_word(o)) {
-        fputs(o->kind == OPTION_TEXT ? " -r" : " -x", stdout);
+        fputs(option_is_file(o) ? " -r" : " -x", stdout);
     }
     fputs(" -d '", stdout);
     print_quoted(o->help, "");

@@ -114,6 +114,15 @@ static int set_colour(reading *r, const option *o, const char *value)
     return DONE;
 }
 
+static int add_file(reading *r, const option *o, const char *value)
+{
+    file_list *files = (file_list *)((char *)r->out + o->offset);
+    if (files->n == MAX_FILES)
+        return misused(r->command->name, "--%s takes at most %d files", o->name, (int)MAX_FILES);
+    files->names[files->n++] = value;
+    return DONE;
+}
+
 static int set_value(reading *r, const option *o, const char *value)
 {
     switch (o->kind) {
@@ -129,6 +138,8 @@ static int set_value(reading *r, const option *o, const char *value)
         return set_point(r, o, value);
     case OPTION_COLOUR:
         return set_colour(r, o, value);
+    case OPTION_FILES:
+        return add_file(r, o, value);
     default:
         *(const char **)((char *)r->out + o->offset) = value;
         return DONE;

@@ -9,6 +9,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Files of an option that may be repeated. */
+enum { MAX_FILES = 256 };
+
+typedef struct file_list {
+    size_t n;
+    const char *names[MAX_FILES];
+} file_list;
+
 typedef struct args {
     const char *program; /* as the user called it */
     const char *command;
@@ -19,6 +27,9 @@ typedef struct args {
     const char *by; /* the property with the names of regions; NULL: cages are no layers */
     const char *json_file, *handles, *pose, *binding, *picture;
     const char *outline, *moves, *nearest, *drawing;
+    const char *feature_points, *target_feature_points, *feature_lines, *target_feature_lines;
+    const char *mesh_out, *target_mesh_out;
+    file_list voids, surfaces, target_voids, target_surfaces;
     char **operands; /* moved to the front of argv */
     size_t n_operands;
     /* how charts and maps are made; 0 is the library's choice */

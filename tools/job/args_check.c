@@ -31,6 +31,23 @@ static int check_triangulation(const args *a, const command *c)
     return DONE;
 }
 
+/* Checks options of features in space. */
+static int check_solid(const args *a, const command *c)
+{
+    const bool one_sided = a->target == NULL && a->source != NULL;
+    if (a->target_feature_points != NULL && a->feature_points == NULL)
+        return misused(c->name, "--target-feature-points needs --feature-points");
+    if (a->target_feature_lines != NULL && a->feature_lines == NULL)
+        return misused(c->name, "--target-feature-lines needs --feature-lines");
+    if (one_sided && a->target_voids.n + a->target_surfaces.n > 0)
+        return misused(c->name, "--target-%s needs --target",
+                       a->target_voids.n > 0 ? "void" : "surface");
+    if ((a->mesh_out != NULL || a->target_mesh_out != NULL) &&
+        (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
+        return misused(c->name, "--mesh-out needs a mesh map, which is the default");
+    return DONE;
+}
+
 /* Checks options that only some methods have. */
 static int check_method(const args *a, const command *c)
 {
@@ -309,7 +326,7 @@ static int check_charts(const args *a, const command *c)
         return check_fill(a, c);
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
-    if (check_match(a, c) != DONE || check_triangulation(a, c) != DONE)
+    if (check_match(a, c) != DONE || check_triangulation(a, c) != DONE || check_solid(a, c) != DONE)
         return MISUSED;
     int result = check_method(a, c);
     if (result == DONE)

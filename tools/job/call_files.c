@@ -37,7 +37,25 @@ static bool call_input(call_file *out, const args *a, const command *c, size_t i
         {a->handles, "--handles", 0},
         {a->pose, "--pose", 0},
         {has_bound(a, c) ? a->binding : NULL, "--binding", 0},
-        {a->landmarks, "--landmarks", 0}};
+        {a->landmarks, "--landmarks", 0},
+        {a->feature_points, "--feature-points", 0},
+        {a->target_feature_points, "--target-feature-points", 0},
+        {a->feature_lines, "--feature-lines", 0},
+        {a->target_feature_lines, "--target-feature-lines", 0}};
+    const struct {
+        const file_list *list;
+        const char *option;
+    } lists[] = {{&a->voids, "--void"},
+                 {&a->surfaces, "--surface"},
+                 {&a->target_voids, "--target-void"},
+                 {&a->target_surfaces, "--target-surface"}};
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
+        if (i < lists[k].list->n) {
+            *out = (call_file){lists[k].list->names[i], lists[k].option, 0};
+            return true;
+        }
+        i -= lists[k].list->n;
+    }
     const size_t n = sizeof inputs / sizeof *inputs;
     if (i < n)
         *out = inputs[i];
@@ -68,6 +86,8 @@ bool call_output(call_file *out, const args *a, const command *c, size_t i)
         {a->output, "--output", c->bit & FOR_MATCH ? "text, GeoJSON, JSON, " SURFACES : "text"},
         {a->target_output, "--target-output", "text, GeoJSON, JSON, " SURFACES},
         {a->triangulation, "--triangulation", "JSON"},
+        {a->mesh_out, "--mesh-out", "Medit"},
+        {a->target_mesh_out, "--target-mesh-out", "Medit"},
         {a->ties, "--ties", "GeoJSON, JSON"},
         {a->repair, "--repair", "text, GeoJSON, JSON, " SURFACES ", NumPy"},
         {a->boundary, "--boundary", "text, " SURFACES},

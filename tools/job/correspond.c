@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "cage/cage_degrees.h"
 #include "cage/cage_features.h"
+#include "cage/cage_parts.h"
 #include "cage/cage_ties.h"
 
 #include <stdio.h>
@@ -90,6 +91,8 @@ int correspond(job *j)
                       source->n,
                       source->dim == 2 ? " (--match auto pairs outlines that do not)" : "");
     problem wrong;
+    if (source->dim == 3 && !cage_pair_parts(source, target, &wrong))
+        return failed(j->args->target, wrong.line, "%s%s", job_side(where, j, 2), wrong.text);
     if (!features_correspond(source, target, &wrong))
         return failed(j->args->target, wrong.line, "%s%s", job_side(where, j, 2), wrong.text);
     int side;

@@ -49,7 +49,11 @@ const char *job_file(const job *j, int side)
 
 const char *job_side(side_text out, const job *j, int side)
 {
-    const char *role = !j->both ? "" : side == 1 ? "source: " : side == 2 ? "target: " : "";
+    bool solid = side > 0 && j->cages[side - 1].dim == 3 && j->cages[side - 1].n_features > 0;
+    const char *role = !j->both && !solid ? ""
+                       : side == 1        ? "source: "
+                       : side == 2        ? "target: "
+                                          : "";
     snprintf(out, sizeof(side_text), "%s", role);
     return out;
 }

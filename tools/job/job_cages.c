@@ -13,6 +13,7 @@
 #include "job/frame_cages.h"
 #include "job/layer_cages.h"
 #include "job/match_cages.h"
+#include "job/solid_cages.h"
 #include "job/t_junctions.h"
 
 #include <stdio.h>
@@ -202,9 +203,10 @@ int job_make_domain(job *j, size_t side)
     const cage *c = &j->cages[side];
     icc_error err = {.size = sizeof err, .index = -1};
     icc_status status =
-        c->cells != NULL && c->n == 0 ? icc_domain_create_mask(&j->made[side], (int32_t)c->dim,
-                                                               c->shape, c->cells, &j->env, &err)
-        : c->n_features > 0           ? job_make_polygon(&j->made[side], c, &j->env, &err)
+        c->cells != NULL && c->n == 0      ? icc_domain_create_mask(&j->made[side], (int32_t)c->dim,
+                                                                    c->shape, c->cells, &j->env, &err)
+        : c->n_features > 0 && c->dim == 3 ? job_make_solid(&j->made[side], c, &j->env, &err)
+        : c->n_features > 0                ? job_make_polygon(&j->made[side], c, &j->env, &err)
                             : icc_domain_create(&j->made[side], (int32_t)c->dim, c->n, c->points,
                                                 c->n_facets, c->facets, &j->env, &err);
     j->domains[side] = j->made[side];
@@ -275,6 +277,8 @@ int job_read_cages(job *j)
     if (result == DONE)
         result = read_source_again(j, s->named, s->text, s->n);
     free(own.text);
+    if (result == DONE)
+        result = solid_cages_add(j);
     if (result == DONE)
         result = check_curves(j);
     if (result == DONE && j->args->match != NULL)

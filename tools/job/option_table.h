@@ -7,6 +7,7 @@
 typedef enum option_kind {
     OPTION_FLAG,   /* bool */
     OPTION_TEXT,   /* const char * */
+    OPTION_FILES,  /* file_list: the option may be repeated */
     OPTION_COUNT,  /* int32_t between low and high */
     OPTION_LENGTH, /* double above 0 (or 0 with `zero`), and at most `most` unless that is 0 */
     OPTION_CHOICE, /* int32_t, by name */
@@ -53,6 +54,12 @@ extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[
 
 /* The name of a value that the library returned. */
 const char *choice_name(const choice *choices, int32_t value);
+
+/* True if the value is a file, or may be one. */
+static inline bool option_is_file(const option *o)
+{
+    return o->kind == OPTION_TEXT || o->kind == OPTION_FILES;
+}
 
 /* True if a value follows as a separate word. */
 bool option_takes_word(const option *o);
