@@ -342,9 +342,10 @@ bool features_correspond(const cage *source, const cage *target, problem *wrong)
 /* The name repeats "(a line)" after the number, so that is skipped. */
 static const char *skip_kind(const char *p)
 {
-    for (int32_t kind = ICC_FEATURE_HOLE; kind <= ICC_FEATURE_REGION; kind++) {
+    static const char *const kinds[] = {"hole", "region", "line", "point", "void", "surface"};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         char text[16];
-        int n = snprintf(text, sizeof text, " (a %s)", kind_name(kind));
+        int n = snprintf(text, sizeof text, " (a %s)", kinds[k]);
         if (strncmp(p, text, (size_t)n) == 0)
             return p + n;
     }
