@@ -54,9 +54,10 @@ size_t cage_count(const cage *c, int32_t kind)
     size_t n = 0;
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        bool counts = kind == ICC_FEATURE_HOLE     ? !has_region(f)
-                      : kind == ICC_FEATURE_REGION ? has_region(f) && f->ring == 0
-                                                   : !f->filled;
+        bool counts = kind == ICC_FEATURE_HOLE ? !has_region(f)
+                      : kind == ICC_FEATURE_REGION
+                          ? (has_region(f) || f->n_facets > 0) && f->ring == 0
+                          : !f->filled;
         n += f->kind == kind && counts;
     }
     return n;

@@ -1,0 +1,81 @@
+#!/bin/sh
+# Solids with voids, surfaces, points and lines inside: the ways to give them, how they correspond, and what is wrong with
+# them, by their names.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+
+# box NAME X SIZE FIRST: an object of OBJ, a cube from (X, X, X) on. FIRST vertices come before it.
+box() {
+    awk -v name="$1" -v x="$2" -v size="$3" -v n="$4" 'BEGIN {
+        if (name != "") print "o " name
+        for (i = 0; i < 8; i++) print "v", x + size * (i % 2), x + size * (int(i / 2) % 2), x + size * int(i / 4)
+        split("1 3 4 1 4 2 5 6 8 5 8 7 1 2 6 1 6 5 3 7 8 3 8 4 1 5 7 1 7 3 2 4 8 2 8 6", v, " ")
+        for (i = 1; i <= 36; i += 3) print "f", n + v[i], n + v[i + 1], n + v[i + 2] }'
+}
+
+{ box outer 0 10 0; box void.1 1 1 8; box surface.1 3 2 16; printf 'o nerve\nv 7 7 7\nv 8 8 8\nl 25 26\n'; } >solid.obj
+{ box surface.1 3 2 0; box outer 0 10 8; box void.1 1 1 16; printf 'o nerve\nv 7 7 7\nv 8 8 8\nl 25 26\n'; } >turned.obj
+
+run 0 check -s solid.obj --json=report.json
+tr -d ' \n' <report.json >line
+holds line '"inside":{"holes":1,"regions":1,"lines":1,"points":0'
+
+# The same solid from several files.
+box "" 0 10 0 >outer.obj
+box "" 1 1 0 >void.obj
+box "" 3 2 0 >surface.obj
+printf '[{"name": "nerve", "source": [[7, 7, 7], [8, 8, 8]], "target": [[7, 7, 7], [8, 8, 8]]}]\n' >lines.json
+printf 'name,x,y,z\ntip,8,2,2\n' >points.csv
+run 0 check -s outer.obj --void=void.obj --surface surface.obj --feature-lines lines.json --feature-points points.csv \
+    --json=report.json
+tr -d ' \n' <report.json >line
+holds line '"inside":{"holes":1,"regions":1,"lines":1,"points":1'
+
+# What meets, by its name.
+{ box outer 0 10 0; box void.1 1 2 8; box void.2 2 2 16; } >meets.obj
+run 1 check -s meets.obj
+grep -q 'void.2' err || complain "void.2 is not named: $(cat err)"
+grep -q 'void.1' err || complain "void.1 is not named: $(cat err)"
+printf 'tip,1.5,1.5,1.5\n' >inside.csv
+run 1 check -s solid.obj --feature-points inside.csv
+holds err tip
+
+# Objects correspond by name, whatever their order; each needs a partner, with the same faces.
+{ box outer 0 10 0; box void.2 1 1 8; } >other.obj
+run 1 map -s solid.obj -t other.obj -p points.csv
+says "'void.1' of the source has no partner in the target"
+{ box outer 0 10 0; box void.1 1 1 8 | sed 's/^f 9 11 12$/f 11 12 9/'; box surface.1 3 2 16; printf 'o nerve\nv 7 7 7\nv 8 8 8\nl 25 26\n'; } >faces.obj
+run 1 map -s solid.obj -t faces.obj -p points.csv
+says "'void.1' has other faces than in the source"
+
+# Two sides of points and lines.
+run 1 map -s outer.obj -t outer.obj --feature-points points.csv -p points.csv
+says '--target-feature-points FILE is missing'
+run 1 map -s outer.obj -t outer.obj --feature-lines lines.json --target-feature-lines lines.json -p points.csv
+says '--target-feature-lines must be left out'
+printf '# Markups fiducial file version = 4.11\n# CoordinateSystem = RAS\n1,8,2,2,0,0,0,1,1,1,0,tip,,\n' >ras.fcsv
+sed 's/RAS/LPS/' ras.fcsv >lps.fcsv
+run 1 map -s outer.obj -t outer.obj --feature-points ras.fcsv --target-feature-points lps.fcsv -p points.csv
+says 'the axes are LPS, but RAS'
+
+# Wrong uses.
+printf '0 0\n1 0\n1 1\n' >plane.txt
+run 1 check -s plane.txt --void void.obj
+says 'this is no surface in space'
+printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >corners.txt
+run 1 check -s outer.obj --void corners.txt
+says '--void takes one closed surface a file'
+run 1 check -s outer.obj --surface solid.obj
+says 'there are several objects'
+run 2 check -s outer.obj --target-void void.obj
+says '--target-void needs --target'
+run 2 check -s outer.obj --target-feature-points points.csv
+says '--target-feature-points needs --feature-points'
+run 1 map -s plane.txt -t plane.txt --mesh-out out.mesh
+says '--mesh-out writes tetrahedra'
+run 2 map -s solid.obj -t turned.obj --mesh-out out.mesh --map curves
+says '--mesh-out needs a mesh map'
+run 2 map -s solid.obj -t turned.obj --mesh-out out.json
+run 2 map -s outer.obj -t outer.obj --void void.obj --target-void void.obj --mesh-out void.obj
+
+finish
