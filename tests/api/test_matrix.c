@@ -27,6 +27,7 @@ enum {
     INTERVAL,
     HOLLOW,
     ORGANS,
+    FILLED,
     N_SHAPES
 };
 
@@ -40,7 +41,8 @@ static const char *const SHAPES[] = {"polygon",
                                      "pentatope",
                                      "interval",
                                      "surface with a void",
-                                     "solid with features"};
+                                     "solid with features",
+                                     "filled solid"};
 
 static const double SQUARE[10] = {0, 0, 8, 0, 8, 8, 4, 8, 0, 8};
 static const uint32_t SIDES[10] = {3, 4, 4, 0, 0, 1, 1, 2, 2, 3};
@@ -152,6 +154,13 @@ static icc_domain *make_domain(int shape, double factor)
     case ORGANS:
         status = make_organs(&d, factor);
         break;
+    case FILLED: {
+        icc_domain *surface;
+        ck_assert_int_eq(make_organs(&surface, factor), ICC_OK);
+        status = icc_domain_fill(&d, surface, NULL, NULL, NULL);
+        icc_domain_free(surface);
+        break;
+    }
     case INTERVAL:
         bend(v, 1, 2, ENDS, factor);
         status = icc_domain_create(&d, 1, 2, v, 2, END_FACETS, NULL, NULL);

@@ -480,6 +480,96 @@ START_TEST(surfaces_that_are_not_closed_are_named)
 }
 END_TEST
 
+/* The distance of the middles of two features in the norm whose spheres are octahedra. */
+static int distance(const int *a, const int *b)
+{
+    return abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]);
+}
+
+/* What a feature is, with a radius of 0 for points. Entry 0 is the outer surface. */
+typedef struct blob {
+    int at[3], radius;
+    int32_t kind;
+} blob;
+
+/* Returns the innermost surface around blob k, or -1. */
+static int blob_around(const blob *blobs, int n, int k)
+{
+    int around = -1;
+    for (int i = 0; i < n; ++i)
+        if (i != k && blobs[i].radius > blobs[k].radius &&
+            distance(blobs[i].at, blobs[k].at) < blobs[i].radius - blobs[k].radius &&
+            (around < 0 || blobs[i].radius < blobs[around].radius))
+            around = i;
+    return around;
+}
+
+static bool blobs_meet(const blob *blobs, int n)
+{
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) {
+            const int d = distance(blobs[i].at, blobs[j].at);
+            const int least = abs(blobs[i].radius - blobs[j].radius);
+            if (least <= d && d <= blobs[i].radius + blobs[j].radius)
+                return true;
+        }
+    return false;
+}
+
+static void add_blob(const blob *b)
+{
+    const double x[3] = {b->at[0] / 64.0, b->at[1] / 64.0, b->at[2] / 64.0};
+    if (b->kind == ICC_FEATURE_POINT)
+        add_line(1, x);
+    else
+        add_ball(b->kind, x[0], x[1], x[2], b->radius / 64.0);
+}
+
+/* Octahedra and points on a lattice. Returns whether they are accepted. */
+static bool try_blobs(random_source *r, int n)
+{
+    static const int32_t kinds[4] = {ICC_FEATURE_HOLE, ICC_FEATURE_POINT, ICC_FEATURE_REGION,
+                                     ICC_FEATURE_REGION};
+    blob blobs[MOST_FEATURES + 1] = {{{0, 0, 0}, 64, ICC_FEATURE_REGION}};
+    uint32_t region[MOST_FEATURES + 1] = {0}, n_regions = 0;
+    icc_error err = {.size = sizeof err};
+    icc_domain *d;
+    begin();
+    for (int k = 1; k < n; ++k) {
+        blob *b = &blobs[k];
+        b->kind = kinds[random_below(r, 4)];
+        b->radius = b->kind == ICC_FEATURE_POINT ? 0 : 1 + random_below(r, k == 1 ? 50 : 12);
+        for (int i = 0; i < 3; ++i)
+            b->at[i] = random_below(r, k == 1 ? 3 : 49) - (k == 1 ? 1 : 24);
+        region[k] = b->kind == ICC_FEATURE_REGION ? ++n_regions : 0;
+        add_blob(b);
+    }
+    bool outside = false;
+    for (int k = 1; k < n; ++k) {
+        const int around = blob_around(blobs, n, k);
+        outside |= around < 0 || blobs[around].kind == ICC_FEATURE_HOLE;
+    }
+    const icc_status status = create(&d, NULL, &err);
+    if (blobs_meet(blobs, n))
+        ck_assert(status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE);
+    else
+        ck_assert_int_eq(status, outside ? ICC_ERR_OUTSIDE : ICC_OK);
+    for (int k = 1; k < n && status == ICC_OK; ++k)
+        ck_assert_uint_eq(feature_of(d, (size_t)k - 1).around, region[blob_around(blobs, n, k)]);
+    icc_domain_free(d);
+    return status == ICC_OK;
+}
+
+START_TEST(nesting_is_as_brute_force_says)
+{
+    random_source r = {7};
+    int n_accepted = 0;
+    for (int i = 0; i < share_of(20000); ++i)
+        n_accepted += try_blobs(&r, 2 + random_below(&r, 5));
+    ck_assert_int_gt(n_accepted, share_of(1000));
+}
+END_TEST
+
 START_TEST(arguments_are_checked)
 {
     icc_domain *d;
@@ -832,6 +922,7 @@ int main(void)
     tcase_add_test(tests, contacts_of_features_are_named);
     tcase_add_test(tests, lines_that_meet_themselves_are_named);
     tcase_add_test(tests, surfaces_that_are_not_closed_are_named);
+    tcase_add_test(tests, nesting_is_as_brute_force_says);
     tcase_add_test(tests, arguments_are_checked);
     tcase_add_test(tests, other_objects_refuse_them);
     tcase_add_test(tests, meshes_are_numbered);
