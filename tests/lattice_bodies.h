@@ -1,5 +1,5 @@
-/* Meshes of tetrahedra with handles and voids, made of the cells of a lattice or of rings of prisms.
- * Only how they hang together matters: they have no coordinates. */
+/* Meshes of tetrahedra with handles and voids, made of the cells of a lattice or of rings of
+ * prisms. Only how they hang together matters: they have no coordinates. */
 #ifndef TESTS_LATTICE_BODIES_H
 #define TESTS_LATTICE_BODIES_H
 
@@ -57,7 +57,8 @@ static inline void lattice_divide(iccp_simplices *mesh, size_t n, random_source 
 
 enum { CELLS = 26, OUTSIDE_CELL = 255, CONED_CELL = 254, FIRST_REGION = 100 };
 
-/* Cells: 0 for the body, 1, 2, .. for voids, FIRST_REGION + 1, .. for inner regions, OUTSIDE_CELL. */
+/* Cells: 0 for the body, 1, 2, .. for voids, FIRST_REGION + 1, .. for inner regions,
+ * OUTSIDE_CELL. */
 typedef struct lattice_body {
     int size[3];
     int beyond; /* the cells around the lattice: OUTSIDE_CELL, or CONED_CELL: a cone over them */
@@ -112,7 +113,7 @@ static inline void body_ring(lattice_body *b, int x, int y, int z, int i, int j,
 }
 
 /* Sets the cells of a torus knot of 2 and n - 2 turns, in 2 n - 1 by 2 n - 1 by 3 cells from a
- * place on: P. R. Cromwell, Arc presentations of knots, 1995. */
+ * place on: P. R. Cromwell, Embedding knots and links in an open book, 1995. */
 static inline void body_knot(lattice_body *b, int n, int x, int y, int z, uint8_t cell)
 {
     for (int i = 0; i < n; ++i) {

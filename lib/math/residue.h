@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* M. Mersenne's ninth prime. Residues are less than it. */
+/* The ninth Mersenne prime. Residues are less than it. */
 #define ICCP_PRIME (((uint64_t)1 << 61) - 1)
 
 static ICCP_INLINE uint64_t iccp_residue_add(uint64_t a, uint64_t b)

@@ -1,6 +1,6 @@
 /* Searches for a short loop of a class, breadth first in a covering of the surface.
  *
- * Source: J. Erickson, S. Har-Peled, Optimally cutting a surface into a disk, 2004, section 5: the
+ * Source: J. Erickson, S. Har-Peled, Optimally cutting a surface into a disk, 2004: the
  * shortest loop through a vertex that is not of a given kind is a path of the breadth-first tree,
  * an edge, and a path back. Here the tree grows in the covering whose loops are those with sum 0 of
  * witness->zero. Its nodes are a vertex and a sum, and each node keeps the sum of witness->other.

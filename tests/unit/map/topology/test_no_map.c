@@ -3,11 +3,13 @@
 #include "../../../faulty.h"
 #include "../../../lattice_bodies.h"
 #include "../../../suite.h"
+#include "domain/domain.h"
 #include "map/topology/no_map.h"
 #include "map/topology/region_pair.h"
 #include "math/residue.h"
 
 #include <check.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -347,6 +349,76 @@ START_TEST(test_failures)
 }
 END_TEST
 
+/* ---- domains ---- */
+
+enum { N_ROUND = 12 };
+
+/* A torus with N_ROUND by N_ROUND vertices; `exchanged` turns it inside out: it goes around what it
+ * went through. */
+static icc_domain *make_torus(bool exchanged, bool filled)
+{
+    static double vertices[3 * N_ROUND * N_ROUND];
+    static uint32_t facets[6 * N_ROUND * N_ROUND];
+    const double turn = 8 * atan(1) / N_ROUND;
+    const size_t n = N_ROUND * N_ROUND;
+    icc_domain *surface = NULL, *domain = NULL;
+    for (uint32_t i = 0; i < N_ROUND; ++i)
+        for (uint32_t j = 0; j < N_ROUND; ++j) {
+            const double u = turn * (exchanged ? j : i), v = turn * (exchanged ? i : j);
+            const double radius = 1 + 0.4 * cos(v), sign = exchanged ? -1 : 1;
+            double *at = vertices + 3 * (N_ROUND * i + j);
+            uint32_t *f = facets + 6 * (N_ROUND * i + j);
+            const uint32_t corners[4] = {torus_vertex(N_ROUND, (int)i, (int)j),
+                                         torus_vertex(N_ROUND, (int)i + 1, (int)j),
+                                         torus_vertex(N_ROUND, (int)i + 1, (int)j + 1),
+                                         torus_vertex(N_ROUND, (int)i, (int)j + 1)};
+            at[0] = radius * cos(u);
+            at[1] = radius * sin(u) * sign; /* the faces then face outwards on both */
+            at[2] = 0.4 * sin(v);
+            for (int k = 0; k < 6; ++k)
+                f[k] = corners[k < 3 ? k : k == 3 ? 0 : k - 2];
+        }
+    ck_assert_int_eq(icc_domain_create(&surface, 3, n, vertices, 2 * n, facets, NULL, NULL),
+                     ICC_OK);
+    if (!filled)
+        return surface;
+    ck_assert_int_eq(icc_domain_fill(&domain, surface, NULL, NULL, NULL), ICC_OK);
+    icc_domain_free(surface);
+    return domain;
+}
+
+static icc_status has_map(const icc_env *env, icc_error *err, void *argument)
+{
+    const bool *exchanged = argument;
+    iccp_env own;
+    icc_status status = iccp_env_read(&own, env, err);
+    icc_domain *source = make_torus(false, true), *target = make_torus(*exchanged, false);
+    icc_domain *filled = NULL;
+    if (status == ICC_OK)
+        status = iccp_solid_has_map(&filled, source, target, &own, err);
+    ck_assert_int_eq(filled != NULL, status == ICC_OK);
+    iccp_domain_release(filled);
+    icc_domain_free(source);
+    icc_domain_free(target);
+    return status;
+}
+
+START_TEST(test_domains)
+{
+    bool exchanged = false;
+    icc_error err = {.size = sizeof err};
+    ck_assert_int_eq(has_map(NULL, NULL, &exchanged), ICC_OK);
+    faulty_sweep(has_map, &exchanged);
+    exchanged = true;
+    ck_assert_int_eq(has_map(NULL, &err, &exchanged), ICC_ERR_TOPOLOGY);
+    ck_assert_int_eq(err.item, ICC_ITEM_VERTEX);
+    ck_assert(err.index >= 0 && err.index < N_ROUND * N_ROUND);
+    ck_assert_ptr_nonnull(strstr(err.message, "handle of the outer surface"));
+    ck_assert_ptr_nonnull(strstr(err.message, "inside the source, but not inside the target"));
+    ck_assert_ptr_nonnull(strstr(err.message, "same loops bound"));
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("no map");
@@ -357,6 +429,7 @@ int main(void)
     tcase_add_test(tc, test_classes);
     tcase_add_test(tc, test_no_handles);
     tcase_add_test(tc, test_failures);
+    tcase_add_test(tc, test_domains);
     suite_add_tcase(suite, tc);
     return suite_run(suite);
 }
