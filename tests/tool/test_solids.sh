@@ -58,6 +58,25 @@ sed 's/RAS/LPS/' ras.fcsv >lps.fcsv
 run 1 map -s outer.obj -t outer.obj --feature-points ras.fcsv --target-feature-points lps.fcsv -p points.csv
 says 'the axes are LPS, but RAS'
 
+# The map's tetrahedra, before and after, without points. A mesh of the source's file is one of its inside.
+box "" 0 12 0 >moved.obj
+run 0 map -s outer.obj -t moved.obj --mesh-out before.mesh --target-mesh-out after.mesh
+[ ! -s out ] || complain "points were read: $(cat out)"
+for side in before after; do
+    sed -n '/^Tetrahedra/,$p' $side.mesh >$side.cells
+    awk '/^Vertices/ { getline; n = $1; for (i = 1; i <= 8; i++) { getline; print $1, $2, $3 } exit }' $side.mesh >$side.txt
+done
+same before.cells after.cells
+sed -n 's/^v //p' outer.obj >before.expected
+sed -n 's/^v //p' moved.obj >after.expected
+same before.txt before.expected
+same after.txt after.expected
+awk 'NF == 5 && $5 != 1 { bad = 1 } END { exit bad }' before.cells || complain "a solid without surfaces inside has regions"
+run 0 check -s outer.obj --mesh before.mesh
+printf '5 5 5\n' >middle.txt
+run 0 map -s outer.obj -t moved.obj --mesh-out before.mesh -p middle.txt
+[ "$(wc -l <out)" -eq 1 ] || complain "no image of a point: $(cat out)"
+
 # Wrong uses.
 printf '0 0\n1 0\n1 1\n' >plane.txt
 run 1 check -s plane.txt --void void.obj

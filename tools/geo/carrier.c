@@ -136,7 +136,7 @@ icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, c
     c->maps = grow(c->maps, &c->room_maps, c->n_maps + 1, sizeof *c->maps);
     carried *m = &c->maps[c->n_maps++];
     *m = (carried){map, from, (uint32_t)c->n_facets, (uint32_t)n_facets, NULL};
-    if (c->matched && has_regions(from, &info[0]))
+    if (c->dim == 2 && c->matched && has_regions(from, &info[0]))
         status = keep_rim(c, m);
     else
         c->n_facets += n_facets;

@@ -388,7 +388,8 @@ const char *args_result(const args *a, const command *c)
 static int settle_streams(args *a, const command *c)
 {
     bool draws = c->bit & FOR_WEIGHTS && (a->picture != NULL || a->n_along > 0);
-    if (c->bit & (FOR_MAP | FOR_ENCODE | FOR_WEIGHTS) && a->points == NULL && !a->geojson && !draws)
+    if (c->bit & (FOR_MAP | FOR_ENCODE | FOR_WEIGHTS) && a->points == NULL && !a->geojson &&
+        !draws && a->mesh_out == NULL && a->target_mesh_out == NULL)
         a->points = "-";
     if (c->bit & FOR_DECODE && a->coords == NULL)
         a->coords = "-";
