@@ -133,7 +133,7 @@ static bool is_well_known_binary(const char *text, size_t n)
 /* Recognises well-known binary as PostGIS prints it, in hexadecimal digits. */
 static bool is_hexadecimal(const char *p)
 {
-    bool little = strncmp(p, "010", 3) == 0 && strncmp(p + 4, "000", 3) == 0;
+    bool little = strncmp(p, "010", 3) == 0 && p[3] != '\0' && strncmp(p + 4, "000", 3) == 0;
     bool big = strncmp(p, "0000", 4) == 0 || strncmp(p, "0020000", 7) == 0;
     return (little || big) && strspn(p, "0123456789ABCDEFabcdef") >= 26;
 }
