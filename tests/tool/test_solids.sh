@@ -86,6 +86,8 @@ run 1 check -s outer.obj --void corners.txt
 says '--void takes one closed surface a file'
 run 1 check -s outer.obj --surface solid.obj
 says 'there are several objects'
+run 1 map -s solid.obj -t turned.obj -p points.csv --fill-holes
+says '--fill-holes is for cages in the plane'
 run 2 check -s outer.obj --target-void void.obj
 says '--target-void needs --target'
 run 2 check -s outer.obj --target-feature-points points.csv

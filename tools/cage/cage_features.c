@@ -101,8 +101,12 @@ const char *cage_inside_text(char out[120], const cage *c)
         if (n == 0)
             continue;
         const char *before = used == 0 ? ", with " : left == 1 ? " and " : ", ";
-        used += (size_t)snprintf(out + used, 120 - used, "%s%zu %s%s", before, n,
-                                 kind_name(kinds[k]), n == 1 ? "" : "s");
+        used +=
+            (size_t)snprintf(out + used, 120 - used, "%s%zu %s%s", before, n,
+                             c->dim == 3 && kinds[k] == ICC_FEATURE_HOLE     ? "void"
+                             : c->dim == 3 && kinds[k] == ICC_FEATURE_REGION ? "surface"
+                                                                             : kind_name(kinds[k]),
+                             n == 1 ? "" : "s");
         left--;
     }
     if (used > 0)

@@ -234,6 +234,8 @@ static int fill_holes(job *j)
 {
     if (j->args->target == NULL)
         return failed(j->args->source, 0, "--fill-holes is for maps; --target FILE is missing");
+    if (job_dim(j) != 2)
+        return failed(j->args->source, 0, "--fill-holes is for cages in the plane");
     for (size_t side = 0; side < 2; side++)
         cage_fill_holes(&j->cages[side]);
     int result = DONE;
