@@ -148,26 +148,63 @@ static void visit_mesh(iccp_blob *b, iccp_simplices *mesh, const icc_domain *sol
     }
 }
 
-/* Replaces a solid by one with the mesh that follows in the bytes. */
-static icc_status read_mesh(iccp_blob *b, icc_domain **domain, const iccp_env *env)
+/* Reads a mesh that is not checked yet. NULL if that fails. */
+static iccp_simplices *read_simplices(iccp_blob *b, const icc_domain *solid)
 {
-    icc_domain *solid = *domain;
     iccp_simplices *mesh = iccp_blob_alloc(b, 1, sizeof *mesh);
     if (mesh == NULL)
-        return b->status;
+        return NULL;
     *mesh = (iccp_simplices){.memory = b->memory, .dim = 3, .n_points = solid->n_vertices};
     visit_mesh(b, mesh, solid);
     if (b->status == ICC_OK)
         iccp_blob_require(b, iccp_are_local(3, 3 * mesh->n_points, mesh->points));
-    if (b->status != ICC_OK) {
-        iccp_simplices_free(mesh);
+    if (b->status == ICC_OK)
+        return mesh;
+    iccp_simplices_free(mesh);
+    return NULL;
+}
+
+static icc_status as_format(icc_status status)
+{
+    return status == ICC_ERR_CERTIFICATE || status == ICC_ERR_BOUNDARY ? ICC_ERR_FORMAT : status;
+}
+
+/* Replaces a solid by one with the mesh that follows in the bytes. */
+static icc_status read_mesh(iccp_blob *b, icc_domain **domain, const iccp_env *env)
+{
+    icc_domain *solid = *domain;
+    iccp_simplices *mesh = read_simplices(b, solid);
+    if (mesh == NULL)
+        return b->status;
+    const icc_status status = iccp_domain_create_solid_mesh(domain, solid, mesh, env, NULL);
+    iccp_domain_release(solid);
+    return as_format(status);
+}
+
+icc_status iccp_solid_filling_visit(iccp_blob *b, iccp_simplices **mesh, const icc_domain *solid,
+                                    const iccp_env *env)
+{
+    uint64_t has_mesh = !b->reads && *mesh != NULL;
+    if (b->reads)
+        *mesh = NULL;
+    iccp_blob_u64(b, 1, &has_mesh);
+    iccp_blob_require(b, has_mesh <= 1);
+    if (has_mesh != 1 || b->status != ICC_OK)
+        return b->status;
+    if (!b->reads) {
+        iccp_simplices copy = **mesh;
+        visit_mesh(b, &copy, solid);
         return b->status;
     }
-    icc_status status = iccp_domain_create_solid_mesh(domain, solid, mesh, env, NULL);
-    if (status == ICC_ERR_CERTIFICATE || status == ICC_ERR_BOUNDARY)
-        status = ICC_ERR_FORMAT;
-    iccp_domain_release(solid);
-    return status;
+    *mesh = read_simplices(b, solid);
+    if (*mesh == NULL)
+        return b->status;
+    const icc_status status = iccp_solid_mesh_check(solid, *mesh, env, NULL);
+    if (status != ICC_OK) {
+        iccp_simplices_free(*mesh);
+        *mesh = NULL;
+    }
+    return as_format(status);
 }
 
 /* ---- both ---- */

@@ -303,6 +303,10 @@ static icc_status make_room(check *c)
     const iccp_memory *memory = &mesh->memory;
     const size_t n_walls = c->solid->features->n_places - c->solid->n_facets;
     mesh->n_boundary = c->solid->n_vertices;
+    iccp_free(memory, mesh->given);
+    iccp_free(memory, mesh->region);
+    iccp_free(memory, mesh->across);
+    mesh->across = NULL;
     mesh->given = iccp_alloc(memory, mesh->n_points, sizeof *mesh->given);
     mesh->region = iccp_alloc(memory, mesh->n_simplices, sizeof *mesh->region);
     c->first = iccp_alloc(memory, c->solid->n_vertices, sizeof *c->first);
@@ -316,12 +320,11 @@ static icc_status make_room(check *c)
                : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_domain_create_solid_mesh(icc_domain **out, const icc_domain *solid,
-                                         iccp_simplices *mesh, const iccp_env *env, icc_error *err)
+icc_status iccp_solid_mesh_check(const icc_domain *solid, iccp_simplices *mesh, const iccp_env *env,
+                                 icc_error *err)
 {
     check c = {.solid = solid, .mesh = mesh, .err = err};
     const iccp_memory memory = mesh->memory;
-    *out = NULL;
     icc_status status = iccp_explain(err, make_room(&c));
     if (status == ICC_OK)
         status = check_mesh(&c, env);
@@ -330,14 +333,22 @@ icc_status iccp_domain_create_solid_mesh(icc_domain **out, const icc_domain *sol
     iccp_free(&memory, c.wall);
     iccp_free(&memory, c.queue);
     iccp_free(&memory, c.used);
+    for (uint32_t v = 0; status == ICC_OK && v < mesh->n_points; ++v)
+        mesh->given[v] = v;
+    return status;
+}
+
+icc_status iccp_domain_create_solid_mesh(icc_domain **out, const icc_domain *solid,
+                                         iccp_simplices *mesh, const iccp_env *env, icc_error *err)
+{
+    *out = NULL;
+    icc_status status = iccp_solid_mesh_check(solid, mesh, env, err);
     if (status == ICC_OK)
         status = iccp_explain(err, iccp_solid_domain_copy(out, solid, &env->memory));
     if (status != ICC_OK) {
         iccp_simplices_free(mesh);
         return status;
     }
-    for (uint32_t v = 0; v < mesh->n_points; ++v)
-        mesh->given[v] = v;
     (*out)->mesh = mesh;
     return ICC_OK;
 }

@@ -23,4 +23,9 @@
 icc_status iccp_domain_create_solid_mesh(icc_domain **out, const icc_domain *solid,
                                          iccp_simplices *mesh, const iccp_env *env, icc_error *err);
 
+/* Checks a mesh in the same way and fills in the rest anew, for a mesh whose simplices have
+ * changed. The caller keeps it, also if it fails. */
+icc_status iccp_solid_mesh_check(const icc_domain *solid, iccp_simplices *mesh, const iccp_env *env,
+                                 icc_error *err);
+
 #endif

@@ -40,6 +40,10 @@ static icc_status check_features(const iccp_features *source, const iccp_feature
                                 "%lu: vertex i must correspond to vertex i",
                                 i, iccp_feature_name(b->kind), (unsigned long)b->n,
                                 iccp_feature_name(a->kind), (unsigned long)a->n);
+        if (a->n_facets != b->n_facets)
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
+                                "feature %zu has %lu facets, but in the source %lu", i,
+                                (unsigned long)b->n_facets, (unsigned long)a->n_facets);
         if (a->orientation != b->orientation)
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
                                 "feature %zu (%s) is %s, but in the source %s: both must turn "
@@ -55,7 +59,7 @@ icc_status iccp_check_correspondence(const icc_domain *source, const icc_domain 
                                      icc_error *err)
 {
     icc_status status = ICC_OK;
-    const size_t n_ends = source->n_facets * (size_t)source->dim;
+    const size_t n_ends = iccp_domain_n_listed(source) * (size_t)source->dim;
     if (source->dim != target->dim)
         status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has dimension %ld, the target %ld",
                            (long)source->dim, (long)target->dim);

@@ -15,6 +15,7 @@
 #include "map/plane/plane_kind.h"
 #include "map/solid/filled_pair.h"
 #include "map/solid/solid_kind.h"
+#include "map/topology/no_map.h"
 #include "method/chart_create.h"
 
 #include <string.h>
@@ -135,6 +136,13 @@ static icc_status set_class_kept(icc_map *next, const icc_map *map, bool moved, 
     return status;
 }
 
+/* True for solids with handles, voids or features. They have no charts, so no curve maps either. */
+static bool has_no_charts(const icc_domain *domain)
+{
+    return domain->dim == 3 &&
+           (domain->features != NULL || domain->genus > 0 || domain->n_voids > 0);
+}
+
 /* Makes the state of the kind. If no mesh map is found, kind 0 becomes kind curves, provided that
  * there are charts, and a caller who asked for kind mesh gets an error. */
 static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map_options *options,
@@ -147,10 +155,10 @@ static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map
     icc_status status = kind->create(map, options, env, err);
     const bool has_none = status == ICC_OK && kind->mesh != NULL && map->state == NULL;
     if (has_none && options->kind == ICC_MAP_MESH)
-        status = iccp_fail(
-            err, ICC_ERR_CERTIFICATE,
-            "no mesh map was found: %zu %s stay inverted; with kind 0 you get a curve map",
-            map->info.n_unrepaired, items);
+        status =
+            iccp_fail(err, ICC_ERR_CERTIFICATE, "no mesh map was found: %zu %s stay inverted%s",
+                      map->info.n_unrepaired, items,
+                      has_no_charts(map->source_domain) ? "" : "; with kind 0 you get a curve map");
     if (has_none && options->kind == 0) {
         iccp_log(env, "%zu %s stay inverted, so the map becomes a curve map",
                  map->info.n_unrepaired, items);
@@ -253,11 +261,16 @@ static icc_status check_request(const icc_domain *source, const icc_map_options 
                          "a mesh map of dimension %ld is made without charts, so there is no "
                          "method or maximum to choose",
                          (long)source->dim);
-    if (source->dim == 3) {
-        const icc_status status = iccp_domain_require_ball(source, "the domain of a map", err);
+    if (source->dim == 3 && (options->kind == ICC_MAP_CURVES || has_wishes(chart_options))) {
+        const icc_status status =
+            iccp_domain_require_ball(source, "the domain of a map through charts", err);
         if (status != ICC_OK)
             return status;
     }
+    if (source->dim == 3 && options->n_ties > 0)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "ties are for the plane: in space all ways around a feature lead to the "
+                         "same map");
     if (source->features == NULL)
         return options->n_ties == 0
                    ? ICC_OK
@@ -294,13 +307,16 @@ static icc_status create_solid(icc_map **out, const icc_domain *source, const ic
                                const icc_map_options *options, size_t *n_left, const iccp_env *env,
                                icc_error *err)
 {
-    icc_domain *filled;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_domain *filled, *filled_target = NULL;
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 1, 4}, env);
     icc_status status = iccp_fill_side(&filled, source, 0, &part[0], err);
     if (status == ICC_OK)
-        status = create_of_kind(out, filled, target, NULL, &iccp_solid_kind, options, n_left,
-                                &part[1], err);
+        status = iccp_solid_has_map(&filled_target, filled, target, &part[1], err);
+    if (status == ICC_OK)
+        status = create_of_kind(out, filled, filled_target != NULL ? filled_target : target, NULL,
+                                &iccp_solid_kind, options, n_left, &part[2], err);
+    iccp_domain_release(filled_target);
     iccp_domain_release(filled);
     return status;
 }
@@ -366,14 +382,16 @@ static icc_status create(icc_map **out, const icc_domain *source, const icc_doma
     if (status != ICC_OK)
         return status;
     size_t n_left = 0;
-    if (source->features != NULL)
+    if (source->features != NULL && source->dim == 2)
         return create_of_kind(out, source, target, NULL, &iccp_plane_kind, options, &n_left, env,
                               err);
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 1}, env);
     icc_map_options rest = *options;
+    if (has_no_charts(source))
+        rest.kind = ICC_MAP_MESH;
     if (needs_no_charts(domains, options, chart_options)) {
-        status = create_without_charts(out, source, target, options, &n_left, &part[0], err);
+        status = create_without_charts(out, source, target, &rest, &n_left, &part[0], err);
         if (status == ICC_OK && n_left == 0)
             (*out)->info.seconds = iccp_seconds() - start;
         if (status != ICC_OK || n_left == 0)

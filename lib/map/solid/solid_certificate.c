@@ -4,12 +4,27 @@
  *
  * The mesh's boundary is the source's, which is checked when the mesh is made, and its facets
  * correspond to the target's. So it is left to check that the images of its vertices are the
- * target's vertices. */
+ * target's vertices. With features the same holds for each region, and for the points on lines. */
 #include "map/solid/solid_certificate.h"
 
 #include "base/error.h"
 
 #include <string.h>
+
+/* Returns true if all fixed points have the images that the target wants. */
+static bool has_fixed(const iccp_solid_map *map, const icc_domain *target)
+{
+    const iccp_simplices *mesh = map->mesh;
+    bool all = memcmp(map->images, target->vertices, 3 * mesh->n_boundary * sizeof(double)) == 0;
+    for (size_t k = 0; k < mesh->n_on_lines && all; ++k) {
+        const iccp_on_line *p = &mesh->on_line[k];
+        double place[3];
+        iccp_on_line_place(&target->frame, target->vertices + 3 * (size_t)p->a,
+                           target->vertices + 3 * (size_t)p->b, p->share, place);
+        all = memcmp(map->images + 3 * (size_t)p->point, place, sizeof place) == 0;
+    }
+    return all;
+}
 
 icc_status iccp_solid_certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
@@ -20,8 +35,7 @@ icc_status iccp_solid_certify(icc_map *map, const iccp_env *env, icc_error *err)
     const iccp_simplicial_map before = iccp_simplicial_map_of(mesh, mesh->points);
     const size_t n_faults = iccp_simplicial_count_at_once(&before, &quiet) +
                             iccp_simplicial_count_at_once(&after, &quiet);
-    const bool is_bounded = memcmp(solid->images, map->target_domain->vertices,
-                                   3 * mesh->n_boundary * sizeof *solid->images) == 0;
+    const bool is_bounded = has_fixed(solid, map->target_domain);
     map->info.certified = n_faults == 0 && is_bounded;
     if (map->info.certified)
         return ICC_OK;

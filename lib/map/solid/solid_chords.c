@@ -75,7 +75,7 @@ static bool is_listed(const cutter *c, const piece *p, size_t width, uint32_t bi
         if ((bits >> i & 1) == 0)
             continue;
         ++n;
-        listed = iccp_solid_is_fixed(c->marks, p->corner[i]);
+        listed = p->corner[i] < c->marks->n_fixed;
         for (size_t j = 0; j < i && width > 2; ++j)
             listed = listed && ((bits >> j & 1) == 0 || p->chord[i][j] == NONE);
     }
@@ -215,7 +215,7 @@ static bool is_whole(const cutter *c, const piece *p)
 {
     bool all_fixed = true;
     for (size_t i = 0; i < c->n; ++i)
-        all_fixed = all_fixed && iccp_solid_is_fixed(c->marks, p->corner[i]);
+        all_fixed = all_fixed && p->corner[i] < c->marks->n_fixed;
     return all_fixed;
 }
 

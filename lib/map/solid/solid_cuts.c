@@ -61,7 +61,8 @@ static bool halve(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring
 static icc_status cut(iccp_solid_edit *edit, uint32_t a, uint32_t b, size_t *n_cut)
 {
     iccp_ring ring;
-    if (!iccp_solid_ring(edit, a, b, &ring) || !iccp_ring_is_there(edit, &ring))
+    if (iccp_solid_keeps_edge(&edit->marks, a, b) || !iccp_solid_ring(edit, a, b, &ring) ||
+        !iccp_ring_is_there(edit, &ring))
         return ICC_OK;
     const icc_status status = iccp_solid_reserve(edit, 1, 2 * ring.n);
     if (status == ICC_OK)
@@ -87,7 +88,7 @@ static int by_length(const void *a, const void *b)
     return (p->ends[1] > q->ends[1]) - (p->ends[1] < q->ends[1]);
 }
 
-/* Lists the edges between boundary points, including surface edges, which have no ring. Only counts
+/* Lists the edges between fixed points, including surface edges, which have no ring. Only counts
  * them if `edges` is NULL. */
 static size_t list_edges(const iccp_solid_edit *edit, listed *edges)
 {
@@ -97,7 +98,7 @@ static size_t list_edges(const iccp_solid_edit *edit, listed *edges)
         const uint32_t *v = mesh->corners + 4 * s;
         for (size_t e = 0; e < 6; ++e) {
             uint32_t a = v[ENDS[e][0]], b = v[ENDS[e][1]];
-            if (a >= mesh->n_boundary || b >= mesh->n_boundary)
+            if (a >= edit->marks.n_fixed || b >= edit->marks.n_fixed)
                 continue;
             if (a > b) {
                 const uint32_t swap = a;
@@ -155,7 +156,8 @@ static bool find_longest(const iccp_solid_edit *edit, const uint32_t *v, uint32_
     for (size_t e = 0; e < 6; ++e) {
         const uint32_t a = v[ENDS[e][0]], b = v[ENDS[e][1]];
         const double length = length_of(edit, a, b);
-        if (length > most && iccp_solid_ring(edit, a, b, &ring)) {
+        if (length > most && !iccp_solid_keeps_edge(&edit->marks, a, b) &&
+            iccp_solid_ring(edit, a, b, &ring)) {
             most = length;
             ends[0] = a;
             ends[1] = b;

@@ -3,6 +3,7 @@
 
 #include "base/minmax.h"
 #include "base/sort.h"
+#include "domain/solid_mesh.h"
 #include "map/energy/dirichlet.h"
 #include "math/predicates.h"
 #include "math/vec.h"
@@ -19,7 +20,8 @@ static iccp_simplices *mesh_of(const iccp_solid_edit *edit)
     return edit->map->own;
 }
 
-icc_status iccp_solid_edit_create(iccp_solid_edit *edit, iccp_solid_map *map)
+icc_status iccp_solid_edit_create(iccp_solid_edit *edit, iccp_solid_map *map,
+                                  const icc_domain *source)
 {
     *edit = (iccp_solid_edit){
         .map = map, .point_room = map->own->n_points, .simplex_room = map->own->n_simplices};
@@ -27,7 +29,7 @@ icc_status iccp_solid_edit_create(iccp_solid_edit *edit, iccp_solid_map *map)
     if (edit->is_new == NULL)
         return ICC_ERR_MEMORY;
     memset(edit->is_new, 1, edit->simplex_room);
-    return ICC_OK;
+    return iccp_solid_marks_create(&edit->marks, source, map->own, &map->memory);
 }
 
 static void free_pass(iccp_solid_edit *edit)
@@ -46,6 +48,7 @@ void iccp_solid_edit_free(iccp_solid_edit *edit)
     free_pass(edit);
     iccp_free(&edit->map->memory, edit->is_new);
     edit->is_new = NULL;
+    iccp_solid_marks_free(&edit->marks);
 }
 
 icc_status iccp_solid_edit_begin(iccp_solid_edit *edit)
@@ -271,6 +274,12 @@ uint32_t iccp_solid_add_point(iccp_solid_edit *edit, const double *point, const 
 icc_status iccp_solid_check(iccp_solid_map *map, const icc_domain *source, const iccp_env *env)
 {
     iccp_simplices *mesh = map->own;
+    if (source->features != NULL) {
+        const icc_status result = iccp_solid_mesh_check(source, mesh, env, NULL);
+        return result == ICC_OK || result == ICC_ERR_MEMORY || result == ICC_ERR_CANCELLED
+                   ? result
+                   : ICC_ERR_CERTIFICATE;
+    }
     iccp_simplicial_map before = iccp_solid_simplicial(map);
     before.images = mesh->points;
     if (iccp_simplicial_count_at_once(&before, env) > 0)

@@ -5,6 +5,7 @@
 
 #include "domain/domain.h"
 #include "map/solid/solid_map.h"
+#include "map/solid/solid_marks.h"
 
 /* Edges with more tetrahedra around them are ignored. */
 enum { ICCP_MOST_RING = 32 };
@@ -20,6 +21,7 @@ typedef struct iccp_solid_edit {
     uint8_t *is_new;     /* of each tetrahedron, including the waiting ones: made after the last
                             search for flips */
     size_t point_room, simplex_room;
+    iccp_solid_marks marks; /* what edits must keep */
 } iccp_solid_edit;
 
 /* The tetrahedra around an inner edge a-b. Number k has the points a, b, point[k] and the next one,
@@ -29,13 +31,15 @@ typedef struct iccp_ring {
     uint32_t point[ICCP_MOST_RING], simplex[ICCP_MOST_RING];
 } iccp_ring;
 
-/* Begins an edit. `map` must stay where it is, with a mesh of its own, until the edit is freed. */
-icc_status iccp_solid_edit_create(iccp_solid_edit *edit, iccp_solid_map *map);
+/* Begins an edit. `map` has a mesh of its own that fills `source`. Both must stay where they are
+ * until the edit is freed. */
+icc_status iccp_solid_edit_create(iccp_solid_edit *edit, iccp_solid_map *map,
+                                  const icc_domain *source);
 void iccp_solid_edit_free(iccp_solid_edit *edit);
 
-/* Checks, exactly, that a changed mesh still is the ball that fills `source`, with its surface, and
- * every tetrahedron is positive before the map. Finds its neighbours again. ICC_ERR_CERTIFICATE if
- * the check fails. */
+/* Checks, exactly, that a changed mesh still fills `source`, with its surfaces, lines and points,
+ * and every tetrahedron is positive before the map. Finds its neighbours and regions again.
+ * ICC_ERR_CERTIFICATE if the check fails. */
 icc_status iccp_solid_check(iccp_solid_map *map, const icc_domain *source, const iccp_env *env);
 
 icc_status iccp_solid_edit_begin(iccp_solid_edit *edit);

@@ -109,8 +109,9 @@ static icc_status try_edge(iccp_solid_edit *edit, uint32_t simplex, uint32_t a, 
     iccp_ring ring;
     triangulation t;
     double limit;
-    if (!iccp_solid_ring(edit, a, b, &ring) || ring.n > RING || !is_first(edit, &ring, simplex) ||
-        !iccp_ring_is_there(edit, &ring) || !add_values(edit, ring.n, ring.simplex, &limit))
+    if (iccp_solid_keeps_edge(&edit->marks, a, b) || !iccp_solid_ring(edit, a, b, &ring) ||
+        ring.n > RING || !is_first(edit, &ring, simplex) || !iccp_ring_is_there(edit, &ring) ||
+        !add_values(edit, ring.n, ring.simplex, &limit))
         return ICC_OK;
     triangulate(edit, a, b, &ring, limit, &t);
     if (!(t.best[0][ring.n - 1] < limit))
@@ -132,6 +133,9 @@ static icc_status try_face(iccp_solid_edit *edit, uint32_t simplex, size_t corne
     const uint32_t *corners = edit->map->mesh->corners, *v = corners + 4 * (size_t)simplex;
     uint32_t pair[2] = {simplex, 0}, after[3][4];
     double limit, sum = 0, volume;
+    const uint32_t face[3] = {v[(corner + 1) % 4], v[(corner + 2) % 4], v[(corner + 3) % 4]};
+    if (iccp_solid_keeps_face(&edit->marks, face))
+        return ICC_OK;
     if (!iccp_solid_across(edit, simplex, corner, &pair[1]) || edit->is_gone[pair[1]] ||
         (pair[1] < simplex && edit->is_new[pair[1]]) || !add_values(edit, 2, pair, &limit))
         return ICC_OK;

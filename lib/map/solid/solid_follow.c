@@ -90,8 +90,15 @@ static iccp_simplicial_map see(const void *map)
 
 static void place(const void *map, const icc_domain *target, size_t point, double *place)
 {
-    (void)map;
-    memcpy(place, target->vertices + 3 * point, 3 * sizeof *place);
+    const journey *j = map;
+    const iccp_simplices *mesh = j->map->mesh;
+    if (point < mesh->n_boundary) {
+        memcpy(place, target->vertices + 3 * point, 3 * sizeof *place);
+        return;
+    }
+    const iccp_on_line *p = &mesh->on_line[point - mesh->n_boundary];
+    iccp_on_line_place(&target->frame, target->vertices + 3 * (size_t)p->a,
+                       target->vertices + 3 * (size_t)p->b, p->share, place);
 }
 
 static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
@@ -127,7 +134,7 @@ static icc_status jump(journey *j, size_t *n_left, const iccp_env *env)
     if (status != ICC_OK)
         return status;
     memcpy(before, simplicial.images, n * sizeof *before);
-    memcpy(simplicial.images, j->target->vertices, 3 * mesh->n_boundary * sizeof *before);
+    iccp_solid_place_fixed(mesh, j->target, simplicial.images);
     *n_left = iccp_simplicial_count_at_once(&simplicial, env);
     if (*n_left > 0 && (double)*n_left < FEW * (double)mesh->n_simplices + 1) {
         status = iccp_untangle(&simplicial, &work, n_left, env);

@@ -50,11 +50,12 @@ icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map)
 }
 
 /* Flips before the cuts, which would make these flips impossible, and again after them. */
-static icc_status change(iccp_solid_map *map, bool cuts, size_t *n_changes, const iccp_env *env)
+static icc_status change(iccp_solid_map *map, const icc_domain *source, bool cuts,
+                         size_t *n_changes, const iccp_env *env)
 {
     iccp_solid_edit edit;
     size_t n[4] = {0};
-    icc_status status = iccp_solid_edit_create(&edit, map);
+    icc_status status = iccp_solid_edit_create(&edit, map, source);
     if (status == ICC_OK)
         status = iccp_solid_flip(&edit, &n[0], env);
     if (status == ICC_OK && cuts)
@@ -89,7 +90,7 @@ icc_status iccp_solid_refine(iccp_solid_map *map, const icc_domain *source, bool
     const iccp_simplicial_map now = iccp_solid_simplicial(map);
     icc_status status = iccp_solid_copy(&next, map);
     if (status == ICC_OK)
-        status = change(&next, cuts, n_changes, env);
+        status = change(&next, source, cuts, n_changes, env);
     if (status == ICC_OK && *n_changes > 0) {
         status = certify(&next, source, env);
         const iccp_simplicial_map then = iccp_solid_simplicial(&next);

@@ -84,8 +84,10 @@ static iccp_simplicial_map mesh(const icc_map *map)
 
 static icc_status renew(icc_map *map, bool *kept, const iccp_env *env)
 {
+    iccp_solid_map *solid = state_of(map);
+    iccp_solid_place_fixed(solid->mesh, map->target_domain, solid->images);
     *kept = true;
-    return iccp_solid_map_replant(map->state, env);
+    return iccp_solid_map_replant(solid, env);
 }
 
 static icc_status improve(icc_map *next, const icc_map *map, const icc_improve_options *options,

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "domain/domain_file.h"
+#include "domain/solid_file.h"
 #include "map/energy/schedule.h"
 #include "map/solid/solid_improve.h"
 #include "map/solid/solid_start.h"
@@ -27,6 +28,25 @@ static icc_status plant(iccp_solid_map *map, const iccp_env *env)
     iccp_facet_tree_create_solid(&map->after, 3, map->images, mesh->n_simplices, mesh->corners,
                                  &env->memory);
     return map->before.boxes != NULL && map->after.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+void iccp_solid_place_fixed(const iccp_simplices *mesh, const icc_domain *target, double *images)
+{
+    memcpy(images, target->vertices, 3 * mesh->n_boundary * sizeof *images);
+    for (size_t k = 0; k < mesh->n_on_lines; ++k) {
+        const iccp_on_line *p = &mesh->on_line[k];
+        iccp_on_line_place(&target->frame, target->vertices + 3 * (size_t)p->a,
+                           target->vertices + 3 * (size_t)p->b, p->share,
+                           images + 3 * (size_t)p->point);
+    }
+}
+
+bool iccp_solid_is_ordered(const iccp_simplices *mesh)
+{
+    for (size_t k = 0; k < mesh->n_on_lines; ++k)
+        if (mesh->on_line[k].point != mesh->n_boundary + k)
+            return false;
+    return true;
 }
 
 /* Makes a map without mesh and images. */
@@ -177,13 +197,16 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
 
 /* The images of the boundary are the target's vertices. */
 static icc_status visit(iccp_blob *b, iccp_solid_map *map, const icc_domain *source,
-                        const icc_domain *target)
+                        const icc_domain *target, const iccp_env *env)
 {
-    const icc_status status = iccp_filling_visit(b, &map->own, source);
+    const icc_status status = source->features != NULL
+                                  ? iccp_solid_filling_visit(b, &map->own, source, env)
+                                  : iccp_filling_visit(b, &map->own, source);
     if (status != ICC_OK)
         return status;
     if (b->reads)
         map->mesh = map->own != NULL ? map->own : source->mesh;
+    iccp_blob_require(b, iccp_solid_is_ordered(map->mesh));
     const size_t n_rim = map->mesh->n_boundary, n = map->mesh->n_points - n_rim;
     iccp_blob_require(b, iccp_blob_has(b, n, 3 * ICCP_F64));
     if (b->reads)
@@ -207,14 +230,14 @@ icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_do
                                 const icc_domain *target, iccp_map_facts *info, const iccp_env *env)
 {
     if (!b->reads)
-        return visit(b, *map, source, target);
+        return visit(b, *map, source, target, env);
     *map = NULL;
     if (source->mesh == NULL)
         return ICC_ERR_FORMAT;
     iccp_solid_map *read = new_map(source, target, &env->memory);
     if (read == NULL)
         return ICC_ERR_MEMORY;
-    icc_status status = visit(b, read, source, target);
+    icc_status status = visit(b, read, source, target, env);
     if (status == ICC_OK && !are_images_local(read))
         status = ICC_ERR_FORMAT;
     if (status == ICC_OK)

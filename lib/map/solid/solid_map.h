@@ -42,12 +42,22 @@ typedef struct iccp_solid_map {
     iccp_facet_tree before, after;
 } iccp_solid_map;
 
+/* Returns true if the points on lines follow the vertices of the domain, in the order of on_line[].
+ * That is so in the mesh of a map. */
+bool iccp_solid_is_ordered(const iccp_simplices *mesh);
+
+/* Returns a view of a map. The points on lines are fixed, too. */
 static inline iccp_simplicial_map iccp_solid_simplicial(const iccp_solid_map *map)
 {
     iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+    simplicial.n_fixed += map->mesh->n_on_lines;
     simplicial.stretch = map->stretch;
     return simplicial;
 }
+
+/* Writes the images of the fixed points of a mesh: the target's vertices, and the same shares of
+ * its lines. */
+void iccp_solid_place_fixed(const iccp_simplices *mesh, const icc_domain *target, double *images);
 
 /* Makes a map from a source with a mesh: harmonic images, repaired until every tetrahedron is
  * positive, exactly. If this fails, it uses a mesh without chords, the target's mesh and further

@@ -152,5 +152,7 @@ static icc_status mend_pockets(iccp_solid_map *map, iccp_direction way, iccp_map
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_domain *source, const icc_domain *target,
                             iccp_map_facts *info, const iccp_env *env)
 {
-    return find(map, (iccp_direction){source, target}, N_STRATEGIES, info, env);
+    /* A pocket is a ball with nothing in it. */
+    const size_t n = source->features == NULL ? N_STRATEGIES : 1;
+    return find(map, (iccp_direction){source, target}, n, info, env);
 }

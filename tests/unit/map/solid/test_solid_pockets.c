@@ -61,7 +61,7 @@ static problem problem_of(body source, body target)
     test_mesh bar = mesh_cells(3, LENGTH, is_bar), bent = mesh_moved(&bar, source);
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     ck_assert_msg(mesh_domain(&p.source, &bent, NULL, &err) == ICC_OK, "%s", err.message);
-    const iccp_solid_marks marks = {.n_boundary = p.source->n_vertices,
+    const iccp_solid_marks marks = {.n_fixed = p.source->n_vertices,
                                     .n_facets = p.source->n_facets,
                                     .facets = p.source->facets};
     ck_assert_int_eq(iccp_solid_cut_chords(&p.mesh, p.source->mesh, &marks, &env), ICC_OK);
@@ -234,7 +234,7 @@ START_TEST(necks_are_cut)
                            .points = points,
                            .corners = corners};
     ck_assert_int_eq(iccp_simplices_orient(&mesh, NULL), ICC_OK);
-    iccp_solid_marks marks = {.n_boundary = 5, .n_facets = 6, .facets = FACETS};
+    iccp_solid_marks marks = {.n_fixed = 5, .n_facets = 6, .facets = FACETS};
     ck_assert_int_eq(iccp_solid_cut_chords(&cut, &mesh, &marks, &env), ICC_OK);
     ck_assert_ptr_nonnull(cut);
     ck_assert_uint_eq(cut->n_points, 6);
@@ -244,7 +244,7 @@ START_TEST(necks_are_cut)
     iccp_simplices_free(cut);
     /* A marked face stays, so each of the tetrahedra beside it gets a point. */
     static const uint32_t ALL[21] = {0, 1, 3, 1, 2, 3, 2, 0, 3, 1, 0, 4, 2, 1, 4, 0, 2, 4, 0, 1, 2};
-    marks = (iccp_solid_marks){.n_boundary = 5, .n_facets = 7, .facets = ALL};
+    marks = (iccp_solid_marks){.n_fixed = 5, .n_facets = 7, .facets = ALL};
     ck_assert_int_eq(iccp_solid_cut_chords(&cut, &mesh, &marks, &env), ICC_OK);
     ck_assert_ptr_nonnull(cut);
     ck_assert_uint_eq(cut->n_points, 7);
