@@ -24,10 +24,10 @@ static icc_status check_count(int32_t dim, size_t f, const icc_feature *feature,
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
                             "feature %zu: there is no kind %ld", f, (long)feature->kind);
     if (!iccp_feature_allows(dim, feature->kind, feature->n_vertices)) {
-        const bool is_solid = dim == 3 && iccp_feature_is_ring(feature->kind);
+        const bool is_surface = dim == 3 && iccp_feature_is_ring(feature->kind);
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
                             "feature %zu: %s, not %zu", f,
-                            counts[feature->kind - 1 + (is_solid ? 4 : 0)], feature->n_vertices);
+                            counts[feature->kind - 1 + (is_surface ? 4 : 0)], feature->n_vertices);
     }
     return ICC_OK;
 }
