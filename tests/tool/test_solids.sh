@@ -77,6 +77,13 @@ printf '5 5 5\n' >middle.txt
 run 0 map -s outer.obj -t moved.obj --mesh-out before.mesh -p middle.txt
 [ "$(wc -l <out)" -eq 1 ] || complain "no image of a point: $(cat out)"
 
+# A surface inside divides the tetrahedra: 1 outside of it, 2 within. The objects may come in another order.
+run 0 map -s solid.obj -t turned.obj --mesh-out before.mesh --target-mesh-out after.mesh
+awk 'NF == 5 { n[$5]++; if ($5 != 1 && $5 != 2) bad = 1 } END { exit bad || !n[1] || !n[2] }' before.mesh || complain "regions are wrong"
+printf '4 4 4\n7.5 7.5 7.5\n9 9 1\n' >some.txt
+run 0 map -s solid.obj -t turned.obj -p some.txt
+close_to out some.txt 1e-9
+
 # Wrong uses.
 printf '0 0\n1 0\n1 1\n' >plane.txt
 run 1 check -s plane.txt --void void.obj
