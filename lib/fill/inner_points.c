@@ -11,9 +11,9 @@
 #include "fill/insert.h"
 #include "fill/quality.h"
 
-/* In units of the local size: shorter edges count as this long; least distances of a new point from
- * other points, and from the surface. */
-static const double least_edge_4 = 0.38, least_edge = 0.6, least_gap = 0.7, least_height = 0.3;
+/* In units of the local size: shorter edges count as this long; least distance of a new point from
+ * the surface. */
+static const double least_edge_4 = 0.38, least_edge = 0.6, least_height = 0.3;
 
 typedef struct bad {
     double key;
@@ -87,7 +87,8 @@ static bool is_bad(const refinement *r, uint32_t t, double centre[3], double *ba
 }
 
 /* Returns true if a point is too near to the corners of the tetrahedra in m->cavity, or to walls
- * there. */
+ * there. A point nearer than `scale` would make an edge shorter than those that it repairs, and
+ * refinement would go on until the whole inside were as fine as the finest edges allow. */
 static bool is_crowded(const iccp_tets *m, const double *x, double scale)
 {
     const iccp_points *const p = &m->points;
@@ -95,7 +96,7 @@ static bool is_crowded(const iccp_tets *m, const double *x, double scale)
         const iccp_tet *const tet = &m->tet[m->cavity.item[k]];
         for (int i = 0; i < 4; ++i) {
             const double *const corner = iccp_point(p, tet->v[i]);
-            if (iccp_square_distance(corner, x) < least_gap * least_gap * scale * scale)
+            if (iccp_square_distance(corner, x) < scale * scale)
                 return true;
             if (!iccp_is_wall_side(tet->across[i]))
                 continue;
