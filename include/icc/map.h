@@ -538,10 +538,11 @@ typedef struct icc_match_info {
     size_t n_joined;    /**< common vertices that are vertices of both given domains */
     /** cost of the outlines' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length and in
      *  space. Of several parts: `cost` to `turn` and `mirrored` are about the one whose pairing by
-     *  shape is least sure */
+     *  shape is least sure. If the whole has placed all parts, they are about the one that costs
+     *  most */
     double cost;
     /** cost of the best pairing that differs from this one by more than 5 % of the perimeter.
-     *  HUGE_VAL if none was found or if there were landmarks */
+     *  HUGE_VAL if none was found, if there were landmarks, or if the whole has placed all parts */
     double second;
     /** (second + 0.05) / (cost + 0.05): confidence in the pairing. 1 means that another pairing
      *  is as good. It is a comparison, not a probability */
@@ -586,8 +587,9 @@ typedef struct icc_match_info {
  * a hole. Both domains must have as many. Parts are paired by their places in the bounding box of
  * the whole, by the roots of their shares of the area, and by twice their numbers of holes, at the
  * least sum of squares. Then outlines are paired part by part. A part whose shape is ambiguous,
- * such as the round dot of an i, is turned as the whole is turned. The whole should lie upright in
- * both domains, or landmarks should tell which parts belong together.
+ * such as the round dot of an i, is placed by the affine map that fits the other outlines and its
+ * own centre best. The whole should lie upright in both domains, or landmarks should tell which
+ * parts belong together.
  *
  * *Features.* Each hole, line and point is paired with one of its kind in the partner of its part.
  * The pairing of the outline around it predicts where it should lie in the target, by mean value
@@ -644,9 +646,9 @@ typedef struct icc_match_info {
  *   too many vertices
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
- * Cost: in 2-D some tenths of a second, plus O(m^3) at worst for m features of a kind; in space
- * about 1 s for 4,700 vertices. Deterministic. The map between the two new domains takes longer to
- * make than one between outlines that correspond.
+ * Cost: in 2-D some tenths of a second for each part, and parts are paired in parallel. Plus O(m^3)
+ * at worst for m features of a kind. In space about 1 s for 4,700 vertices. Deterministic. The map
+ * between the two new domains takes longer to make than one between outlines that correspond.
  */
 ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
                                     const icc_domain *target, size_t n_landmarks,

@@ -18,12 +18,13 @@ typedef struct iccp_paired_parts {
     const icc_domain *domain[2]; /* borrowed */
     const iccp_domain_parts *parts;
     iccp_part_pair *pair; /* of each part of the source */
-    double *moved;        /* the source's vertices; those of placed parts are turned */
+    double *moved;        /* the source's vertices; those of placed parts are placed */
 } iccp_paired_parts;
 
 /* Pairs the parts and then their outlines. A part whose shape is ambiguous, such as a round dot, is
- * turned as the whole is turned. A domain of a single part is refused instead. ICC_ERR_AMBIGUOUS,
- * ICC_ERR_ARGUMENT, ICC_ERR_BOUNDARY. The caller frees the result even after an error. */
+ * placed by the affine map of the whole. A domain of a single part is refused instead.
+ * ICC_ERR_AMBIGUOUS, ICC_ERR_ARGUMENT, ICC_ERR_BOUNDARY. The caller frees the result even after an
+ * error. */
 icc_status iccp_pair_parts(iccp_paired_parts *out, const icc_domain *const *domains,
                            const iccp_domain_parts *parts, const iccp_sorted_landmarks *landmarks,
                            const icc_match_options *options, const iccp_env *env, icc_error *err);

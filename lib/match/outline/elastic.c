@@ -262,8 +262,9 @@ icc_status iccp_elastic_bend(iccp_pairing_knots *knots, const iccp_outline *sour
     return ICC_OK;
 }
 
-icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *source,
-                             const iccp_outline *target, double start, const iccp_memory *memory)
+icc_status iccp_elastic_near(iccp_pairing_knots *knots, iccp_elastic_report *report,
+                             const iccp_outline *source, const iccp_outline *target, double start,
+                             const iccp_memory *memory)
 {
     elastic *const e = prepare(source, target, memory);
     if (e == NULL)
@@ -272,6 +273,7 @@ icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *sour
     for (int k = 0; k < N; ++k)
         c->place[k] = (float)(k + N * start);
     iccp_elastic_candidate_follow(c, &e->samples);
+    report->cost = c->path.cost;
     read_knots(knots, c);
     release(e, memory);
     return ICC_OK;
