@@ -268,8 +268,7 @@ static int make(job *j, const layers *l)
         char text[sizeof err.message];
         progress_end(&j->bar);
         with_names(text, sizeof text, l, job_message(&err));
-        return failed(err.side != 0 ? job_file(j, err.side) : NULL, 0, "%s%s", text,
-                      status == ICC_ERR_TOPOLOGY && !a->leaves_out ? " (--leave-out goes on)" : "");
+        return failed(err.side != 0 ? job_file(j, err.side) : NULL, 0, "%s", text);
     }
     icc_coverage_info info = {.size = sizeof info};
     icc_coverage_get_info(coverage, &info);

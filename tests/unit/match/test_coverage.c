@@ -159,8 +159,9 @@ START_TEST(differences_are_named_or_left_out)
     b = a;
     b.ids = seven_nine;
     ck_assert_int_eq(icc_coverage_create(&coverage, &a, &b, NULL, NULL, &err), ICC_ERR_TOPOLOGY);
-    ck_assert_str_eq(err.message,
-                     "region 8, near (1, 0), is in the source only (and 1 more differences)");
+    ck_assert_str_eq(
+        err.message,
+        "region 8, near (1, 0), is in the source only (and 1 more difference): leave it out");
     const icc_coverage_options options = {.size = sizeof options,
                                           .unmatched = ICC_UNMATCHED_LEAVE_OUT};
     ck_assert_int_eq(icc_coverage_create(&coverage, &a, &b, &options, NULL, &err), ICC_OK);
@@ -207,7 +208,8 @@ START_TEST(regions_inside_others_are_named)
         const uint8_t *holes;
         size_t n_rings;
         const char *message;
-    } cases[] = {{nested, seven_eight, NULL, 2, "source: regions 7 and 8 overlap at (3, 3)"},
+    } cases[] = {{nested, seven_eight, NULL, 2,
+                  "source: regions 7 and 8 overlap at (3, 3): weld if they should only meet"},
                  {nested, twice, NULL, 2, "source: region 7 overlaps itself at (3, 3)"},
                  {nested, twice, second, 2, NULL},
                  {apart, twice, NULL, 2, NULL},
