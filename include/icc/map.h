@@ -999,6 +999,11 @@ typedef struct icc_retarget_options {
  * way, the call fails with ::ICC_ERR_CERTIFICATE; take another way, in several calls. If the target
  * has a very different size or is far away, the features first move along with the whole shape.
  *
+ * With `iterations` 0 or -1, only faces change that have a vertex with a new place on their
+ * boundaries: parts of the domain between lines. Everything else keeps its places exactly. All
+ * faces change if the way is blocked, so that the map is made anew, or if the target's box shrinks
+ * or grows so far that coordinates are scaled anew.
+ *
  * In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew
  * by icc_map_create(), which fills a target without a mesh; icc_env::log then says so. There is no
  * guarantee that a target is reached, but every map that is returned is certified. Beyond 3-D inner
