@@ -767,6 +767,19 @@ typedef struct icc_tie {
     const double *target; /**< 2 n_target coordinates */
 } icc_tie;
 
+/** Whether vertices of features may slide: icc_map_options::slide. A *chain* is a row of edges of
+ *  rings and lines between two places where more or fewer than two edges meet, a line ends, or a
+ *  point lies. A closed chain begins at one of its vertices. Between its ends, the vertices of a
+ *  chain that slides need not go to their partners. The chain as a whole goes exactly to its
+ *  partner, edge by edge and in order, and libicc chooses how so that the energy is low. That suits
+ *  interfaces of materials and borders whose vertices mean nothing by themselves. The map is never
+ *  worse than without sliding. */
+enum {
+    ICC_SLIDE_NONE = 0,   /**< vertex i goes to vertex i */
+    ICC_SLIDE_INSIDE = 1, /**< chains inside the domain slide */
+    ICC_SLIDE_ALL = 2     /**< chains of the boundary slide as well */
+};
+
 /** Options of icc_chart_create(); see icc/chart.h. */
 struct icc_chart_options;
 
@@ -794,6 +807,9 @@ typedef struct icc_map_options {
     /** with features: paths that join all pieces of each part to a tree. They lie inside both
      *  domains and do not cross. NULL: libicc chooses the way that looks least twisted */
     const icc_tie *ties;
+    /** with features: `ICC_SLIDE_*`, whether vertices may slide along lines and borders. The map
+     *  then needs improvement, so `iterations` must not be -1 */
+    int32_t slide;
 } icc_map_options;
 
 /** Why a chart or a map is not certified. If there are several reasons, the first is given. The
@@ -838,6 +854,7 @@ typedef struct icc_map_info {
     /** length of the ties in the target, divided by that of the straight lines between their
      *  ends. The map is twisted if it is much more than 1 */
     double detour;
+    size_t n_slid; /**< places of given vertices that do not go to their partners: ::ICC_SLIDE_ALL */
 } icc_map_info;
 
 /** What icc_map_get_report() reports about how a map was made. Members that do not apply to the
