@@ -48,6 +48,8 @@ const choice requirements[] = {{"certified", REQUIRE_CERTIFIED}, {NULL, 0}};
 const choice sides[] = {
     {"source", SIDE_SOURCE}, {"target", SIDE_TARGET}, {"both", SIDE_BOTH}, {NULL, 0}};
 
+const choice slidings[] = {{"all", ICC_SLIDE_ALL}, {NULL, 0}};
+
 const choice turnings[] = {{"upright", ICC_TURNING_UPRIGHT}, {"free", ICC_TURNING_FREE}, {NULL, 0}};
 
 const char *choice_name(const choice *choices, int32_t value)
@@ -231,6 +233,16 @@ const option options[] = {
      .commands = FOR_MESH,
      .offset = AT(slides),
      .help = "with --fit: the other vertices of the boundary may slide along straight walls"},
+    {.name = "slide",
+     .group = OPTIONS_RARE,
+     .kind = OPTION_WITH_CHOICE,
+     .commands = MAY_PAIR & ~(unsigned)FOR_MESH,
+     .offset = AT(slides),
+     .present = AT(slide),
+     .choices = slidings,
+     .value = "[=all]",
+     .help = "vertices of lines and borders inside may slide along them if that distorts the map "
+             "less; with =all also those of the boundary. Junctions and ends stay partners"},
     {.name = "free",
      .kind = OPTION_FLAG,
      .commands = FOR_MESH,
