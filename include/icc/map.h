@@ -808,7 +808,9 @@ typedef struct icc_map_options {
      *  domains and do not cross. NULL: libicc chooses the way that looks least twisted */
     const icc_tie *ties;
     /** with features: `ICC_SLIDE_*`, whether vertices may slide along lines and borders. The map
-     *  then needs improvement, so `iterations` must not be -1 */
+     *  then needs improvement, so `iterations` must not be -1. Ends of ties stay. Several maps are
+     *  made in turn, which may take 5 to 15 times as long. Domains without features and
+     *  icc_map_create_from_charts() refuse to slide with ::ICC_ERR_UNSUPPORTED */
     int32_t slide;
 } icc_map_options;
 
@@ -854,7 +856,9 @@ typedef struct icc_map_info {
     /** length of the ties in the target, divided by that of the straight lines between their
      *  ends. The map is twisted if it is much more than 1 */
     double detour;
-    size_t n_slid; /**< places of given vertices that do not go to their partners: ::ICC_SLIDE_ALL */
+    /** with features: places with a given vertex that does not go to its partner, see
+     *  icc_map_options::slide */
+    size_t n_slid;
 } icc_map_info;
 
 /** What icc_map_get_report() reports about how a map was made. Members that do not apply to the
@@ -1011,10 +1015,11 @@ typedef struct icc_retarget_options {
  * the way.
  *
  * Features move straight to their new places. On the way they pass one another on the same sides as
- * before (icc_map_info::class_kept). The mesh changes as needed, and the first frame may refine it,
- * also if `iterations` is -1. If features would meet on the
- * way, the call fails with ::ICC_ERR_CERTIFICATE; take another way, in several calls. If the target
- * has a very different size or is far away, the features first move along with the whole shape.
+ * before (icc_map_info::class_kept). Vertices that have slid (icc_map_options::slide) keep the edge
+ * and the share of it to which they go. The mesh changes as needed, and the first frame may refine
+ * it, also if `iterations` is -1. If features would meet on the way, the call fails with
+ * ::ICC_ERR_CERTIFICATE; take another way, in several calls. If the target has a very different
+ * size or is far away, the features first move along with the whole shape.
  *
  * With `iterations` 0 or -1, only faces change that have a vertex with a new place on their
  * boundaries: parts of the domain between lines. Everything else keeps its places exactly. All
@@ -1204,7 +1209,9 @@ typedef struct icc_tie_info {
  * @param[out] info   `size` is set by the caller
  * @param[out] source 2 * n_source coordinates of bends, or NULL
  * @param[out] target 2 * n_target coordinates of bends, or NULL
- * @return ::ICC_OK, or ::ICC_ERR_ARGUMENT if `map` or `info` is NULL or there is no such tie
+ * @return ::ICC_OK, or ::ICC_ERR_ARGUMENT if `map` or `info` is NULL or there is no such tie. Also
+ *         ::ICC_ERR_UNSUPPORTED if an end of the tie has slid (icc_map_options::slide), so that it
+ *         is a vertex of one domain only
  */
 ICC_API icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info,
                                    double *source, double *target);

@@ -13,9 +13,9 @@
 #include "method/load.h"
 
 static const char KIND[] = "MAP_";
-/* Versions of the format: 5 for maps whose chains slide, 4 for other maps with features, 3 for maps with a chart whose format came with
- * version 2 of charts, 1 for all others. So a map is saved in one way only. Version 2 was for maps
- * with features that do not touch. */
+/* Versions of the format: 5 for maps whose chains slide, 4 for other maps with features, 3 for maps
+ * with a chart whose format came with version 2 of charts, 1 for all others. So a map is saved in
+ * one way only. Version 2 was for maps with features that do not touch. */
 enum {
     PLAIN_VERSION = 1,
     APART_VERSION,

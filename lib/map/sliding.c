@@ -2,9 +2,9 @@
  *
  * Each round proposes a slide from the best map, and makes a map between the domains with its
  * knots. The first round makes chains correspond by their lengths, which is a good guess where
- * their vertices are spaced otherwise before than after. Later rounds go down the energy; if the
- * new map is no better, they go less far. The true energy of a certified map decides, so the result
- * is never worse than the map without sliding. */
+ * their vertices are spaced otherwise before than after. Later rounds go down the energy. If the
+ * new map is no better, the next round goes half as far. The true energy of a certified map
+ * decides, so the result is never worse than the map without sliding. */
 #include "map/sliding.h"
 
 #include "base/clock.h"
@@ -15,10 +15,8 @@
 
 #include <math.h>
 
-/* The most rounds, and how many in a row may be in vain. Each of these goes SHORTER times as far as
- * the one before. Reports of progress take TYPICAL_ROUNDS for half of them. */
-enum { ROUNDS = 12, ROUNDS_IN_VAIN = 2 };
-static const double SHORTER = 0.4, TYPICAL_ROUNDS = 4;
+/* The most rounds: they still gain a little on letters with bars whose outlines slide. */
+enum { ROUNDS = 12 };
 
 /* A round that gains no more than this share of the energy above an isometry's is in vain. */
 static const double LEAST_GAIN = 1e-3;
@@ -107,16 +105,12 @@ static icc_status go_down(sliding *s, const iccp_env *env)
                                   .is_held = s->is_held};
     icc_status status = ICC_OK;
     outcome result = IN_VAIN;
-    size_t n_vain = 0;
-    for (size_t k = 0;
-         status == ICC_OK && k < ROUNDS && n_vain < ROUNDS_IN_VAIN && result != NOTHING_SLIDES;
-         ++k) {
-        const iccp_env part = iccp_round(env, k, TYPICAL_ROUNDS);
+    for (size_t k = 0; status == ICC_OK && k < ROUNDS && result != NOTHING_SLIDES; ++k) {
+        const iccp_env part = iccp_round(env, k, 4);
         status = attempt(s, &request, &result, &part);
-        if (request.way == ICCP_SLIDE_DOWN) {
-            n_vain = result == GAIN ? 0 : n_vain + 1;
-            request.share = result == GAIN ? 1 : SHORTER * request.share;
-        }
+        if (request.way == ICCP_SLIDE_DOWN && result == IN_VAIN && request.share < 1)
+            break;
+        request.share = request.way == ICCP_SLIDE_DOWN && result == IN_VAIN ? 0.5 : 1;
         request.way = ICCP_SLIDE_DOWN;
     }
     return status;

@@ -902,6 +902,19 @@ pub const ICC_MAP_CURVES: i32 = 1;
 /// is not checked.
 pub const ICC_MAP_MESH: i32 = 2;
 
+// Whether vertices of features may slide: `icc_map_options.slide`. A *chain* is a row of edges of rings and
+// lines between two places where more or fewer than two edges meet, a line ends, or a point lies. A closed
+// chain begins at one of its vertices. Between its ends, the vertices of a chain that slides need not go to
+// their partners. The chain as a whole goes exactly to its partner, edge by edge and in order, and libicc
+// chooses how so that the energy is low. That suits interfaces of materials and borders whose vertices mean
+// nothing by themselves. The map is never worse than without sliding.
+/// vertex i goes to vertex i
+pub const ICC_SLIDE_NONE: i32 = 0;
+/// chains inside the domain slide
+pub const ICC_SLIDE_INSIDE: i32 = 1;
+/// chains of the boundary slide as well
+pub const ICC_SLIDE_ALL: i32 = 2;
+
 /// A path between two vertices of a domain with features, and its path in the target. Ties tell a map on
 /// which side one feature passes another. The map takes the first path to one that can be moved to the second
 /// with its ends held and without crossing a feature.
@@ -950,6 +963,11 @@ pub struct icc_map_options {
     /// with features: paths that join all pieces of each part to a tree. They lie inside both domains and do
     /// not cross. NULL: libicc chooses the way that looks least twisted
     pub ties: *const icc_tie,
+    /// with features: `ICC_SLIDE_*`, whether vertices may slide along lines and borders. The map then needs
+    /// improvement, so `iterations` must not be -1. Ends of ties stay. Several maps are made in turn, which
+    /// may take 5 to 15 times as long. Domains without features and `icc_map_create_from_charts()` refuse to
+    /// slide with `ICC_ERR_UNSUPPORTED`
+    pub slide: i32,
 }
 sized!(icc_map_options);
 
@@ -996,6 +1014,8 @@ pub struct icc_map_info {
     /// length of the ties in the target, divided by that of the straight lines between their ends. The map is
     /// twisted if it is much more than 1
     pub detour: f64,
+    /// with features: places with a given vertex that does not go to its partner, see `icc_map_options.slide`
+    pub n_slid: usize,
 }
 sized!(icc_map_info);
 
@@ -2137,7 +2157,8 @@ extern "C" {
     /// way.
     ///
     /// Features move straight to their new places. On the way they pass one another on the same sides as
-    /// before (`icc_map_info.class_kept`). The mesh changes as needed, and the first frame may refine it,
+    /// before (`icc_map_info.class_kept`). Vertices that have slid (`icc_map_options.slide`) keep the edge
+    /// and the share of it to which they go. The mesh changes as needed, and the first frame may refine it,
     /// also if `iterations` is -1. If features would meet on the way, the call fails with
     /// `ICC_ERR_CERTIFICATE`; take another way, in several calls. If the target has a very different size or
     /// is far away, the features first move along with the whole shape.
@@ -2270,7 +2291,9 @@ extern "C" {
     /// - `source` (out): 2 * n_source coordinates of bends, or NULL
     /// - `target` (out): 2 * n_target coordinates of bends, or NULL
     ///
-    /// Returns `ICC_OK`, or `ICC_ERR_ARGUMENT` if `map` or `info` is NULL or there is no such tie
+    /// Returns `ICC_OK`, or `ICC_ERR_ARGUMENT` if `map` or `info` is NULL or there is no such tie. Also
+    /// `ICC_ERR_UNSUPPORTED` if an end of the tie has slid (`icc_map_options.slide`), so that it is a vertex
+    /// of one domain only
     pub fn icc_map_get_tie(
         map: *const icc_map,
         tie: usize,

@@ -43,6 +43,16 @@ pub enum MapKind {
     Mesh = sys::ICC_MAP_MESH,
 }
 
+/// Which vertices of features may slide: [`MapOptions::slide`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Slide {
+    /// those of lines and borders inside the domain
+    Inside = sys::ICC_SLIDE_INSIDE,
+    /// those of the boundary as well
+    All = sys::ICC_SLIDE_ALL,
+}
+
 /// Options of [`Map::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MapOptions<'a> {
@@ -56,6 +66,9 @@ pub struct MapOptions<'a> {
     pub target_maximum: Option<&'a [f64]>,
     /// with features: in each part of the domain, one less than it has pieces; or none
     pub ties: &'a [Tie<'a>],
+    /// with features: vertices slide along lines and borders if that distorts the map less. Ends, and places where
+    /// three or more edges meet, stay partners
+    pub slide: Option<Slide>,
 }
 
 /// A path between two vertices of a domain with features, and its path in the target. It tells on which side features
@@ -111,6 +124,7 @@ impl MapOptions<'_> {
             iterations: self.iterations,
             chart,
             target_maximum: pointer(self.target_maximum),
+            slide: self.slide.map_or(sys::ICC_SLIDE_NONE, |slide| slide as i32),
             ..Default::default()
         }
     }
