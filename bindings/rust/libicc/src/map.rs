@@ -274,21 +274,25 @@ impl Map {
     }
 
     /// The ties of the map, which tell on which side features pass one another. Passed to [`MapOptions`] they make a
-    /// map that can be moved to this one while it stays one-to-one. Without features there are none.
+    /// map that can be moved to this one while it stays one-to-one. Without features there are none. Ties whose ends
+    /// have slid ([`MapOptions::slide`]) are left out.
     pub fn ties(&self) -> Vec<OwnedTie> {
-        (0..self.info().n_ties).map(|tie| self.tie(tie)).collect()
+        (0..self.info().n_ties).filter_map(|tie| self.tie(tie)).collect()
     }
 
-    fn tie(&self, tie: usize) -> OwnedTie {
+    fn tie(&self, tie: usize) -> Option<OwnedTie> {
         let (mut info, nothing) = (sys::icc_tie_info::default(), std::ptr::null_mut());
-        // SAFETY: `size` is set, and there is such a tie. It cannot fail.
-        unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, nothing, nothing) };
+        // SAFETY: `size` is set, and there is such a tie.
+        let status = unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, nothing, nothing) };
+        if status != sys::ICC_OK {
+            return None;
+        }
         let (mut source, mut target) = (vec![0.0; 2 * info.n_source], vec![0.0; 2 * info.n_target]);
         // SAFETY: there is room for all bends.
         unsafe {
             sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, source.as_mut_ptr(), target.as_mut_ptr())
         };
-        OwnedTie { vertices: info.vertex, source, target }
+        Some(OwnedTie { vertices: info.vertex, source, target })
     }
 
     /// The dimension.
