@@ -14,7 +14,7 @@
 #include "map/higher/higher_kind.h"
 #include "map/plane/plane_kind.h"
 #include "map/slide/added_vertices.h"
-#include "map/sliding.h"
+#include "map/slide/sliding.h"
 #include "map/solid/filled_pair.h"
 #include "map/solid/solid_kind.h"
 #include "method/chart_create.h"

@@ -9,7 +9,7 @@
 #include "map/compatible/plmap_file.h"
 #include "map/correspondence.h"
 #include "map/slide/added_vertices.h"
-#include "map/sliding.h"
+#include "map/slide/sliding.h"
 #include "method/load.h"
 
 static const char KIND[] = "MAP_";

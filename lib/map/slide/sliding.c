@@ -5,7 +5,7 @@
  * their vertices are spaced otherwise before than after. Later rounds go down the energy. If the
  * new map is no better, the next round goes half as far. The true energy of a certified map
  * decides, so the result is never worse than the map without sliding. */
-#include "map/sliding.h"
+#include "map/slide/sliding.h"
 
 #include "base/clock.h"
 #include "base/error.h"
