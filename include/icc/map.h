@@ -588,8 +588,8 @@ typedef struct icc_match_info {
  * the whole, by the roots of their shares of the area, and by twice their numbers of holes, at the
  * least sum of squares. Then outlines are paired part by part. A part whose shape is ambiguous,
  * such as the round dot of an i, is placed by the affine map that fits the other outlines and its
- * own centre best. The whole should lie upright in both domains, or landmarks should tell which
- * parts belong together.
+ * own centre best. So is any other part that then fits clearly better. The whole should lie upright
+ * in both domains, or landmarks should tell which parts belong together.
  *
  * *Features.* Each hole, line and point is paired with one of its kind in the partner of its part.
  * The pairing of the outline around it predicts where it should lie in the target, by mean value

@@ -1,7 +1,7 @@
 /* Pairs outlines part by part. Shapes decide first. The parts that they decide, and the centres of
  * the others, then tell how the whole is moved: by the affine map with the least sum of squares.
- * Parts that shapes leave open, such as the round dots of an i, are turned and stretched by it and
- * paired where they are nearest. */
+ * It places each part, which is then paired where it is nearest. Parts that shapes leave open, such
+ * as the round dot of an i, are paired so. The others are paired so if that is clearly better. */
 #include "match/part_pairing.h"
 
 #include "base/error.h"
@@ -173,34 +173,76 @@ static void place(double *points, size_t n, const iccp_plane_affine *whole, cons
     }
 }
 
-/* Places the vertices of a part: its outline and what lies inside. */
+/* Places n vertices of the source about the centre of their part; or, if there is no map, puts them
+ * back. */
+static void place_some_vertices(iccp_paired_parts *all, size_t first, size_t n,
+                                const iccp_plane_affine *whole, const double centre[2])
+{
+    if (whole != NULL)
+        place(all->moved + 2 * first, n, whole, centre);
+    else
+        memcpy(all->moved + 2 * first, all->domain[0]->vertices + 2 * first,
+               2 * n * sizeof *all->moved);
+}
+
+/* Places the vertices of a part, or puts them back: its outline and what lies inside. */
 static void place_vertices(iccp_paired_parts *all, uint32_t part, const iccp_plane_affine *whole)
 {
     const iccp_features *const features = all->domain[0]->features;
     const iccp_domain_part *const p = &all->parts[0].part[part];
     if (p->ring == NONE)
-        place(all->moved, features->n_outer, whole, p->centre);
+        place_some_vertices(all, 0, features->n_outer, whole, p->centre);
     for (size_t f = 0; f < features->n; ++f)
         if (all->parts[0].of[f] == part)
-            place(all->moved + 2 * (size_t)features->item[f].first, features->item[f].n, whole,
-                  p->centre);
+            place_some_vertices(all, features->item[f].first, features->item[f].n, whole,
+                                p->centre);
 }
 
-/* Places the parts begin .. end - 1 that shapes have left open. */
+static bool has_landmarks(const pairing *p, uint32_t ring)
+{
+    bool found = false;
+    for (size_t k = 0; k < p->landmarks->n && !found; ++k)
+        found = p->landmarks->item[k].feature[0] == ring;
+    return found;
+}
+
+/* Places a part as the whole lies. If shape has decided how it lies, takes the better of both. */
+static icc_status place_part(const pairing *p, size_t part, icc_error *err)
+{
+    iccp_part_pair *const pair = &p->out->pair[part];
+    iccp_union_outline common = {0};
+    iccp_elastic_report report;
+    place_vertices(p->out, (uint32_t)part, &p->whole);
+    iccp_outline_place(&pair->outline[0], p->out->moved);
+    const icc_status status = iccp_pair_moved(&common, &report, &pair->outline[0],
+                                              &pair->outline[1], 0, NULL, p->options, &p->env, err);
+    if (status == ICC_OK && !pair->is_placed &&
+        iccp_elastic_better(report.cost, pair->report.cost) < iccp_clearly_better) {
+        iccp_union_outline_free(&common, &p->env.memory);
+        place_vertices(p->out, (uint32_t)part, NULL);
+        iccp_outline_place(&pair->outline[0], p->out->moved);
+        return status;
+    }
+    const double *const m = p->whole.matrix;
+    iccp_union_outline_free(&pair->common, &p->env.memory);
+    pair->common = common;
+    pair->report = report;
+    pair->report.turn = iccp_atan2_turns(m[2] - m[1], m[0] + m[3]);
+    pair->is_placed = true;
+    return status;
+}
+
+/* Places the parts begin .. end - 1. Landmarks, and arc length from landmarks or by itself, decide
+ * alone. */
 static icc_status place_some(void *argument, size_t begin, size_t end)
 {
     const pairing *const p = argument;
     icc_status status = ICC_OK;
     for (size_t k = begin; k < end && status == ICC_OK; ++k) {
-        iccp_part_pair *const pair = &p->out->pair[k];
-        if (!pair->is_placed)
-            continue;
-        const double *const m = p->whole.matrix;
-        place_vertices(p->out, (uint32_t)k, &p->whole);
-        iccp_outline_place(&pair->outline[0], p->out->moved);
-        status = iccp_pair_moved(&pair->common, &pair->report, &pair->outline[0], &pair->outline[1],
-                                 0, NULL, p->options, &p->env, &p->error[k]);
-        pair->report.turn = iccp_atan2_turns(m[2] - m[1], m[0] + m[3]);
+        const bool is_open = p->out->pair[k].is_placed;
+        if (is_open || (p->options->between != ICC_BETWEEN_ARC &&
+                        !has_landmarks(p, p->out->parts[0].part[k].ring)))
+            status = place_part(p, k, &p->error[k]);
     }
     return status;
 }
@@ -224,7 +266,7 @@ static icc_status for_parts(pairing *p, iccp_chunk task, const iccp_env *env, ic
     return iccp_explain(err, status);
 }
 
-/* Pairs several parts by shape, and then those that shapes leave open as the whole lies. */
+/* Pairs several parts by shape, and then as the whole lies. */
 static icc_status pair_several(pairing *p, const iccp_env *env, icc_error *err)
 {
     iccp_env parts[2];

@@ -23,6 +23,9 @@ typedef struct iccp_elastic_report {
     double mirrored; /* how many times better the mirror image fits, compared as for `sure`; or 0 */
 } iccp_elastic_report;
 
+/* How many times better one cost is than another. */
+double iccp_elastic_better(double cost, double other);
+
 /* Searches all starts. `knots` has room for 2 N + 1 pairs. */
 icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *report,
                                const iccp_outline *source, const iccp_outline *target, bool is_free,

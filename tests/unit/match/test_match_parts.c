@@ -189,24 +189,29 @@ static void take(size_t n, const double *matrix, const double *from, double *to)
             matrix[2 * (k % 2)] * from[k - k % 2] + matrix[2 * (k % 2) + 1] * from[k - k % 2 + 1];
 }
 
-/* Makes a disc above another shape, both taken by a matrix. */
-static icc_domain *disc_over(size_t n, const double *shape, const double *matrix)
+/* Makes a disc of n_disc vertices above another shape, both taken by a matrix. */
+static icc_domain *disc_of(size_t n_disc, size_t n, const double *shape, const double *matrix)
 {
-    double disc[2 * ROUND], xy[2][2 * ROUND];
-    for (size_t k = 0; k < ROUND; ++k) {
-        const double t = 6.283185307179586 * (double)k / ROUND;
+    double disc[4 * ROUND], xy[2][4 * ROUND];
+    for (size_t k = 0; k < n_disc; ++k) {
+        const double t = 6.283185307179586 * (double)k / (double)n_disc;
         disc[2 * k] = .7 * cos(t);
         disc[2 * k + 1] = 2 + .7 * sin(t);
     }
-    take(ROUND, matrix, disc, xy[0]);
+    take(n_disc, matrix, disc, xy[0]);
     take(n, matrix, shape, xy[1]);
     const icc_feature features[] = {
         {.size = sizeof *features,
          .kind = ICC_FEATURE_REGION,
-         .n_vertices = ROUND,
+         .n_vertices = n_disc,
          .vertices = xy[0]},
         {.size = sizeof *features, .kind = ICC_FEATURE_REGION, .n_vertices = n, .vertices = xy[1]}};
     return domain_of(0, NULL, 2, features);
+}
+
+static icc_domain *disc_over(size_t n, const double *shape, const double *matrix)
+{
+    return disc_of(ROUND, n, shape, matrix);
 }
 
 static const double same[] = {1, 0, 0, 1};
@@ -230,26 +235,30 @@ START_TEST(turns_discs_with_the_rest)
 }
 END_TEST
 
-/* The bar also tells how all is stretched and sheared, and all places of the disc go with it. */
+/* The bar also tells how all is stretched and sheared, and all places of the disc go with it, also
+ * if the disc has other vertices. */
 START_TEST(stretches_discs_with_the_rest)
 {
     static const double oblique[] = {1.3, .7, 0, .8};
-    icc_match *match;
-    icc_error err;
-    ring_pair rings[2];
-    double xy[2][2 * MOST], to[2];
-    const icc_status status =
-        match_of(&match, disc_over(4, bar, same), disc_over(4, bar, oblique), 0, NULL, &err);
-    ck_assert_msg(status == ICC_OK, "%s", err.message);
-    ck_assert_uint_eq(describe(rings, match), 2);
-    ck_assert_int_eq(icc_domain_get_boundary(icc_match_source(match), xy[0], NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_get_boundary(icc_match_target(match), xy[1], NULL), ICC_OK);
-    for (size_t k = 0; k < rings[0].info.n_vertices; ++k) {
-        const size_t v = rings[0].info.first_vertex + k;
-        take(1, oblique, xy[0] + 2 * v, to);
-        ck_assert_double_lt(hypot(xy[1][2 * v] - to[0], xy[1][2 * v + 1] - to[1]), .05);
+    static const size_t n_disc[] = {ROUND, 45, 2 * ROUND};
+    for (size_t d = 0; d < sizeof n_disc / sizeof *n_disc; ++d) {
+        icc_match *match;
+        icc_error err;
+        ring_pair rings[2];
+        double xy[2][2 * MOST], to[2];
+        const icc_status status = match_of(&match, disc_over(4, bar, same),
+                                           disc_of(n_disc[d], 4, bar, oblique), 0, NULL, &err);
+        ck_assert_msg(status == ICC_OK, "%s", err.message);
+        ck_assert_uint_eq(describe(rings, match), 2);
+        ck_assert_int_eq(icc_domain_get_boundary(icc_match_source(match), xy[0], NULL), ICC_OK);
+        ck_assert_int_eq(icc_domain_get_boundary(icc_match_target(match), xy[1], NULL), ICC_OK);
+        for (size_t k = 0; k < rings[0].info.n_vertices; ++k) {
+            const size_t v = rings[0].info.first_vertex + k;
+            take(1, oblique, xy[0] + 2 * v, to);
+            ck_assert_double_lt(hypot(xy[1][2 * v] - to[0], xy[1][2 * v + 1] - to[1]), .1);
+        }
+        icc_match_free(match);
     }
-    icc_match_free(match);
 }
 END_TEST
 
