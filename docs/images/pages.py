@@ -25,6 +25,10 @@ from libicc import stages
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt                                 # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection   # noqa: E402
+from matplotlib.font_manager import FontProperties              # noqa: E402
+from matplotlib.patches import PathPatch                        # noqa: E402
+from matplotlib.path import Path as Path_                       # noqa: E402
+from matplotlib.textpath import TextPath                        # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection         # noqa: E402
 
 TOP = Path(__file__).resolve().parents[2]
@@ -200,39 +204,127 @@ def matched():
     return figure
 
 
+def paint(ax, domain, to_source, colour, width=1.0):
+    """Paints a domain: each place in the colour of the place of the source that it comes from."""
+    rings = [ring for kind, ring in domain.features if kind in ("region", "hole")]
+    outline = Path_.make_compound_path(*(Path_(np.vstack([ring, ring[:1]]), closed=True) for ring in rings))
+    low, high = domain.vertices.min(0), domain.vertices.max(0)
+    margin = .02 * (high - low).max()
+    x, y = np.meshgrid(*(np.linspace(a, b, 900) for a, b in zip(low, high)))
+    places = np.column_stack([x.ravel(), y.ravel()])
+    picture = colour(to_source(places)).reshape(*x.shape, 3)
+    image = ax.imshow(picture, extent=(low[0], high[0], low[1], high[1]), origin="lower", interpolation="antialiased")
+    image.set_clip_path(PathPatch(outline, transform=ax.transData))
+    for kind, ring in domain.features:
+        closed = ring if kind == "line" else np.vstack([ring, ring[:1]])
+        ax.plot(*closed.T, color=RED if kind == "line" else INK, lw=2 * width if kind == "line" else width,
+                solid_capstyle="butt", solid_joinstyle="round", zorder=3 if kind == "line" else 4)
+    ax.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin))
+
+
+def glyph(text, family):
+    """The rings of a glyph as regions and holes."""
+    rings = [ring[:-1] for ring in TextPath((0, 0), text, size=100, prop=FontProperties(family=family))
+             .to_polygons(closed_only=True)]
+    rings = [ring[np.hypot(*(ring - np.roll(ring, 1, 0)).T) > 1e-6] for ring in rings]
+    areas = [(ring[:, 0] * np.roll(ring[:, 1], -1) - ring[:, 1] * np.roll(ring[:, 0], -1)).sum() for ring in rings]
+    largest = max(areas, key=abs)
+    return libicc.Domain(None, features=[("region" if area * largest > 0 else "hole", ring)
+                                         for area, ring in zip(areas, rings)])
+
+
+def bands_of(domain):
+    """Colours of the places of a domain: rows from blue to red, and a chequered pattern."""
+    low, high = domain.vertices.min(0), domain.vertices.max(0)
+    step = (high - low).max() / 14
+
+    def colour(places):
+        rows = (np.nan_to_num(places[:, 1]) - low[1]) / (high - low)[1]
+        cells = np.floor((np.nan_to_num(places) - low) / step).sum(1) % 2
+        return plt.cm.Spectral_r(.08 + .84 * rows)[:, :3] * (1 - .16 * cells[:, None])
+    return colour
+
+
 def glyphs():
     """Glyphs of two typefaces. Each place of the second has the colour of the place that it comes from."""
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import TextPath
-
-    def glyph(text, family):
-        rings = [ring[:-1] for ring in TextPath((0, 0), text, size=100, prop=FontProperties(family=family))
-                 .to_polygons(closed_only=True)]
-        rings = [ring[np.hypot(*(ring - np.roll(ring, 1, 0)).T) > 1e-6] for ring in rings]
-        areas = [(ring[:, 0] * np.roll(ring[:, 1], -1) - ring[:, 1] * np.roll(ring[:, 0], -1)).sum() for ring in rings]
-        largest = max(areas, key=abs)
-        return libicc.Domain(None, features=[("region" if area * largest > 0 else "hole", ring)
-                                             for area, ring in zip(areas, rings)])
-
     figure, axes = panels(6, (12, 3))
     for k, text in enumerate("i%ä"):
         match = libicc.Match(glyph(text, "DejaVu Sans"), glyph(text, "DejaVu Serif"))
         mapping = libicc.Map(match.source, match.target)
-        low, high = match.source.vertices.min(0), match.source.vertices.max(0)
-        x, y = np.meshgrid(*(np.linspace(a, b, 260) for a, b in zip(low, high)))
-        places = np.column_stack([x.ravel(), y.ravel()])
-        images = mapping(places)
-        inside = np.isfinite(images[:, 0])
-        share = (places - low) / (high - low)
-        bands = (share * 6).astype(int).sum(1) % 2
-        colours = plt.cm.turbo(.1 + .8 * share[:, 1]) * (1 - .35 * bands[:, None])
-        colours[:, 3] = 1
-        for ax, domain, at in zip(axes[2 * k:], (match.source, match.target), (places, images)):
-            ax.scatter(*at[inside].T, c=colours[inside], s=2, lw=0, rasterized=True)
-            for _, ring in domain.features:
-                ax.plot(*np.vstack([ring, ring[:1]]).T, color=INK, lw=1.2)
+        colour = bands_of(match.source)
+        paint(axes[2 * k], match.source, lambda places: places, colour)
+        paint(axes[2 * k + 1], match.target, mapping.apply_inverse, colour)
     figure.subplots_adjust(.01, .02, .99, .98, .08)
-    return few_colours(figure)
+    return figure_picture(figure)
+
+
+def bar_of(letter, axis, share, number):
+    """The ends of a bar across a letter: where a line at a share of its size enters it and leaves it."""
+    low, high = letter.vertices.min(0), letter.vertices.max(0)
+    level, ends = low[axis] + share * (high - low)[axis], []
+    for _, ring in letter.features:
+        for a, b in zip(ring, np.roll(ring, -1, 0)):
+            if (a[axis] < level) != (b[axis] < level):
+                ends.append(a + (level - a[axis]) / (b - a)[axis] * (b - a))
+    return sorted(ends, key=lambda end: end[1 - axis])[2 * number:2 * number + 2]
+
+
+def letters():
+    """Letters of two typefaces with bars from side to side, which go to their partners. Their ends are landmarks."""
+    bars = {"A": [(1, .24, 0), (1, .24, 1), (1, .6, 0), (1, .6, 1), (0, .5, 0)],
+            "e": [(1, .68, 0), (1, .68, 1), (0, .55, 0), (0, .5, 1)],
+            "8": [(1, .28, 0), (1, .28, 1), (1, .75, 0), (1, .75, 1), (0, .5, 1)]}
+    figure, axes = panels(6, (12, 3.2))
+    for k, (text, places) in enumerate(bars.items()):
+        sides = [glyph(text, family) for family in ("DejaVu Sans", "DejaVu Serif")]
+        ends = [np.vstack([bar_of(side, *place) for place in places]) for side in sides]
+        match = libicc.Match(*sides, landmarks=np.hstack(ends))
+        lines = [np.hypot(*(match.source.vertices - end).T).argmin() for end in ends[0]]
+        sides = [libicc.Domain(None, features=side.features + [("line", bar) for bar in side.vertices[lines].reshape(-1, 2, 2)])
+                 for side in (match.source, match.target)]
+        mapping = libicc.Map(*sides)
+        colour = bands_of(sides[0])
+        paint(axes[2 * k], sides[0], lambda places: places, colour)
+        paint(axes[2 * k + 1], sides[1], mapping.apply_inverse, colour)
+    figure.subplots_adjust(.01, .02, .99, .98, .08)
+    return figure_picture(figure)
+
+
+def states():
+    """48 states with common borders, which all bend at once. A grid goes along."""
+    features = json.loads((TOP / "examples/data/states.geojson").read_text())["features"]
+    rings = [np.array(f["geometry"]["coordinates"][0][:-1]) for f in features]
+    low, high = np.vstack(rings).min(0), np.vstack(rings).max(0)
+
+    def bend(places):
+        from_middle = places - (low + high) / 2
+        turn, radius = from_middle[:, 0] / .8, .8 + from_middle[:, 1]
+        return np.column_stack([radius * np.sin(turn), radius * np.cos(turn)])
+    source = libicc.Domain(None, regions=rings)
+    mapping = libicc.Map(source, libicc.Domain(None, regions=[bend(r) for r in rings]))
+
+    def inside(places):
+        return np.where((source.locate(places) == libicc.OUTSIDE)[:, None], np.nan, places)
+    tints = ["#dce8f4", "#f6e6cf", "#e0efd8", "#f3dce4", "#e6def2", "#f7f1c9"]
+    figure, axes = panels(2, (10, 3.6))
+    fine = np.linspace(0, 1, 2000)[:, None]
+    for ax, move in zip(axes, (inside, mapping)):
+        for k, ring in enumerate(rings):
+            ax.fill(*move(ring).T, fc=tints[k * 7 % 6], ec="none")
+        for a in np.linspace(low[0], high[0], 40):
+            ax.plot(*move(np.hstack([0 * fine + a, low[1] + fine * (high - low)[1]])).T, color="#8899aa", lw=.35)
+        for b in np.linspace(low[1], high[1], 25):
+            ax.plot(*move(np.hstack([low[0] + fine * (high - low)[0], 0 * fine + b])).T, color="#8899aa", lw=.35)
+        for ring in rings:
+            ax.plot(*move(np.vstack([ring, ring[:1]])).T, color=INK, lw=.9, solid_joinstyle="round")
+    figure.subplots_adjust(.01, .01, .99, .99, .03)
+    return figure_picture(figure)
+
+
+def figure_picture(figure, colours=200):
+    """A figure as a picture of few colours, which is small."""
+    figure.canvas.draw()
+    return Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()).quantize(colours, dither=0)
 
 
 def stages_of_the_papers():
@@ -326,9 +418,8 @@ def puppet():
 
 
 def few_colours(figure):
-    """A figure of thin lines as a picture, which is small with few colours."""
-    figure.canvas.draw()
-    return Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()).quantize(24, dither=0)
+    """A figure of thin lines as a picture."""
+    return figure_picture(figure, 24)
 
 
 def moving_mesh():
@@ -390,7 +481,7 @@ def grid_lines(n):
 
 PICTURES = {"control-points": control_points, "puppet": puppet, "moving-mesh": moving_mesh, "certify": certify,
             "fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
-            "matched": matched, "glyphs": glyphs, "two-surveys": two_surveys,
+            "matched": matched, "glyphs": glyphs, "letters": letters, "states": states, "two-surveys": two_surveys,
             "stages": stages_of_the_papers, "mesh": mesh}
 
 

@@ -622,10 +622,11 @@ typedef struct icc_match_info {
     size_t n_joined;    /**< common vertices that are vertices of both given domains */
     /** cost of the outlines' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length and in
      *  space. Of several parts: `cost` to `turn` and `mirrored` are about the one whose pairing by
-     *  shape is least sure */
+     *  shape is least sure. If the whole has placed all parts, they are about the one that costs
+     *  most */
     double cost;
     /** cost of the best pairing that differs from this one by more than 5 % of the perimeter.
-     *  HUGE_VAL if none was found or if there were landmarks */
+     *  HUGE_VAL if none was found, if there were landmarks, or if the whole has placed all parts */
     double second;
     /** (second + 0.05) / (cost + 0.05): confidence in the pairing. 1 means that another pairing
      *  is as good. It is a comparison, not a probability */
@@ -670,8 +671,9 @@ typedef struct icc_match_info {
  * a hole. Both domains must have as many. Parts are paired by their places in the bounding box of
  * the whole, by the roots of their shares of the area, and by twice their numbers of holes, at the
  * least sum of squares. Then outlines are paired part by part. A part whose shape is ambiguous,
- * such as the round dot of an i, is turned as the whole is turned. The whole should lie upright in
- * both domains, or landmarks should tell which parts belong together.
+ * such as the round dot of an i, is placed by the affine map that fits the other outlines and its
+ * own centre best. So is any other part that then fits clearly better. The whole should lie upright
+ * in both domains, or landmarks should tell which parts belong together.
  *
  * *Features.* Each hole, line and point is paired with one of its kind in the partner of its part.
  * The pairing of the outline around it predicts where it should lie in the target, by mean value
@@ -728,9 +730,9 @@ typedef struct icc_match_info {
  *   too many vertices
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
- * Cost: in 2-D some tenths of a second, plus O(m^3) at worst for m features of a kind; in space
- * about 1 s for 4,700 vertices. Deterministic. The map between the two new domains takes longer to
- * make than one between outlines that correspond.
+ * Cost: in 2-D some tenths of a second for each part, and parts are paired in parallel. Plus O(m^3)
+ * at worst for m features of a kind. In space about 1 s for 4,700 vertices. Deterministic. The map
+ * between the two new domains takes longer to make than one between outlines that correspond.
  */
 ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
                                     const icc_domain *target, size_t n_landmarks,
@@ -849,6 +851,19 @@ typedef struct icc_tie {
     const double *target; /**< 2 n_target coordinates */
 } icc_tie;
 
+/** Whether vertices of features may slide: icc_map_options::slide. A *chain* is a row of edges of
+ *  rings and lines between two places where more or fewer than two edges meet, a line ends, or a
+ *  point lies. A closed chain begins at one of its vertices. Between its ends, the vertices of a
+ *  chain that slides need not go to their partners. The chain as a whole goes exactly to its
+ *  partner, edge by edge and in order, and libicc chooses how so that the energy is low. That suits
+ *  interfaces of materials and borders whose vertices mean nothing by themselves. The map is never
+ *  worse than without sliding. */
+enum {
+    ICC_SLIDE_NONE = 0,   /**< vertex i goes to vertex i */
+    ICC_SLIDE_INSIDE = 1, /**< chains inside the domain slide */
+    ICC_SLIDE_ALL = 2     /**< chains of the boundary slide as well */
+};
+
 /** Options of icc_chart_create(); see icc/chart.h. */
 struct icc_chart_options;
 
@@ -877,6 +892,11 @@ typedef struct icc_map_options {
     /** with features: paths that join all pieces of each part to a tree. They lie inside both
      *  domains and do not cross. NULL: libicc chooses the way that looks least twisted */
     const icc_tie *ties;
+    /** with features: `ICC_SLIDE_*`, whether vertices may slide along lines and borders. The map
+     *  then needs improvement, so `iterations` must not be -1. Ends of ties stay. Several maps are
+     *  made in turn, which may take 5 to 15 times as long. Domains without features and
+     *  icc_map_create_from_charts() refuse to slide with ::ICC_ERR_UNSUPPORTED */
+    int32_t slide;
 } icc_map_options;
 
 /** Why a chart or a map is not certified. If there are several reasons, the first is given. The
@@ -921,6 +941,9 @@ typedef struct icc_map_info {
     /** length of the ties in the target, divided by that of the straight lines between their
      *  ends. The map is twisted if it is much more than 1 */
     double detour;
+    /** with features: places with a given vertex that does not go to its partner, see
+     *  icc_map_options::slide */
+    size_t n_slid;
 } icc_map_info;
 
 /** What icc_map_get_report() reports about how a map was made. Members that do not apply to the
@@ -1078,10 +1101,16 @@ typedef struct icc_retarget_options {
  * the way.
  *
  * Features move straight to their new places. On the way they pass one another on the same sides as
- * before (icc_map_info::class_kept). The mesh changes as needed, and the first frame may refine it,
- * also if `iterations` is -1. If features would meet on the
- * way, the call fails with ::ICC_ERR_CERTIFICATE; take another way, in several calls. If the target
- * has a very different size or is far away, the features first move along with the whole shape.
+ * before (icc_map_info::class_kept). Vertices that have slid (icc_map_options::slide) keep the edge
+ * and the share of it to which they go. The mesh changes as needed, and the first frame may refine
+ * it, also if `iterations` is -1. If features would meet on the way, the call fails with
+ * ::ICC_ERR_CERTIFICATE; take another way, in several calls. If the target has a very different
+ * size or is far away, the features first move along with the whole shape.
+ *
+ * With `iterations` 0 or -1, only faces change that have a vertex with a new place on their
+ * boundaries: parts of the domain between lines. Everything else keeps its places exactly. All
+ * faces change if the way is blocked, so that the map is made anew, or if the target's box shrinks
+ * or grows so far that coordinates are scaled anew.
  *
  * In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew
  * by icc_map_create(), which fills a target without a mesh; icc_env::log then says so. There is no
@@ -1266,7 +1295,9 @@ typedef struct icc_tie_info {
  * @param[out] info   `size` is set by the caller
  * @param[out] source 2 * n_source coordinates of bends, or NULL
  * @param[out] target 2 * n_target coordinates of bends, or NULL
- * @return ::ICC_OK, or ::ICC_ERR_ARGUMENT if `map` or `info` is NULL or there is no such tie
+ * @return ::ICC_OK, or ::ICC_ERR_ARGUMENT if `map` or `info` is NULL or there is no such tie. Also
+ *         ::ICC_ERR_UNSUPPORTED if an end of the tie has slid (icc_map_options::slide), so that it
+ *         is a vertex of one domain only
  */
 ICC_API icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info,
                                    double *source, double *target);

@@ -20,6 +20,12 @@ static icc_status read_options(icc_map_options *full, const icc_map_options *opt
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_map_options.iterations is %ld; it must be at least -1",
                          (long)full->iterations);
+    if (status == ICC_OK && (full->slide < ICC_SLIDE_NONE || full->slide > ICC_SLIDE_ALL))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_map_options.slide is %ld; it must be 0, 1 or 2", (long)full->slide);
+    if (status == ICC_OK && full->slide != ICC_SLIDE_NONE && full->iterations < 0)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_map_options.iterations is -1, but a map that slides is improved");
     return status;
 }
 
@@ -148,7 +154,8 @@ icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
                                .n_lines = f->n_lines,
                                .n_points = f->n_points,
                                .n_ties = f->n_ties,
-                               .detour = f->detour};
+                               .detour = f->detour,
+                               .n_slid = f->n_slid};
     return iccp_write_struct(info, &full, sizeof full, "icc_map_info", NULL);
 }
 

@@ -13,6 +13,8 @@
 #include "map/energy/affine.h"
 #include "map/higher/higher_kind.h"
 #include "map/plane/plane_kind.h"
+#include "map/slide/added_vertices.h"
+#include "map/slide/sliding.h"
 #include "map/solid/filled_pair.h"
 #include "map/solid/solid_kind.h"
 #include "map/topology/no_map.h"
@@ -199,12 +201,21 @@ static icc_status create_of_kind(icc_map **out, const icc_domain *source, const 
     return ICC_OK;
 }
 
+static icc_status refuse_sliding(icc_error *err)
+{
+    return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                     "icc_map_options.slide: only lines, holes and regions of a domain with "
+                     "features can slide");
+}
+
 static icc_status create_from(icc_map **out, const icc_chart *source, const icc_chart *target,
                               const icc_map_options *options, const iccp_env *env, icc_error *err)
 {
     const icc_chart *const charts[2] = {source, target};
     const iccp_map_kind *kind;
     size_t n_left;
+    if (options->slide != ICC_SLIDE_NONE)
+        return refuse_sliding(err);
     const icc_status status = iccp_map_choose_kind(&kind, options->kind, source, target, err);
     return status == ICC_OK ? create_of_kind(out, source->domain, target->domain, charts, kind,
                                              options, &n_left, env, err)
@@ -271,6 +282,8 @@ static icc_status check_request(const icc_domain *source, const icc_map_options 
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "ties are for the plane: in space all ways around a feature lead to the "
                          "same map");
+    if ((source->features == NULL || source->dim != 2) && options->slide != ICC_SLIDE_NONE)
+        return refuse_sliding(err);
     if (source->features == NULL)
         return options->n_ties == 0
                    ? ICC_OK
@@ -281,6 +294,14 @@ static icc_status check_request(const icc_domain *source, const icc_map_options 
             err, ICC_ERR_UNSUPPORTED,
             "holes, lines or points inside need a mesh map that is made without charts");
     return ICC_OK;
+}
+
+static icc_status create_with_features(icc_map **out, const icc_domain *source,
+                                       const icc_domain *target, const icc_map_options *options,
+                                       const iccp_env *env, icc_error *err)
+{
+    size_t n_left;
+    return create_of_kind(out, source, target, NULL, &iccp_plane_kind, options, &n_left, env, err);
 }
 
 static icc_status create_without_features(icc_map **out, const icc_domain *const domains[2],
@@ -383,8 +404,10 @@ static icc_status create(icc_map **out, const icc_domain *source, const icc_doma
         return status;
     size_t n_left = 0;
     if (source->features != NULL && source->dim == 2)
-        return create_of_kind(out, source, target, NULL, &iccp_plane_kind, options, &n_left, env,
-                              err);
+        return options->slide != ICC_SLIDE_NONE
+                   ? iccp_map_create_sliding(out, source, target, options, create_with_features,
+                                             env, err)
+                   : create_with_features(out, source, target, options, env, err);
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 1}, env);
     icc_map_options rest = *options;
@@ -445,6 +468,8 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         better->info = map->info;
         status = map->kind->improve(better, map, options, report, &with, err);
     }
+    if (status == ICC_OK)
+        status = iccp_map_keep_slide(better, map, NULL);
     iccp_env quiet = iccp_quiet(&with);
     if (status == ICC_OK)
         status = iccp_map_conclude(better, &quiet, err);
@@ -518,6 +543,28 @@ static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations
                : status;
 }
 
+/* Begins a map to a moved target. If chains slide, they keep their knots. */
+static icc_status begin_moved(icc_map **next, const icc_map *map, const icc_domain *target,
+                              const iccp_env *env, icc_error *err)
+{
+    icc_domain *larger;
+    if (map->slide == NULL)
+        return iccp_map_begin(next, map->source_domain, target, env, err);
+    const iccp_env quiet = iccp_quiet(env);
+    iccp_slide *slide = NULL;
+    icc_status status = iccp_check_correspondence(map->slide->given[0], target, err);
+    if (status == ICC_OK)
+        status = iccp_slide_copy(&slide, map->slide, target, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_domain_with_knots(&larger, slide, 1, &quiet, err);
+    if (status == ICC_OK) {
+        status = iccp_map_begin(next, map->source_domain, larger, env, err);
+        iccp_domain_release(larger);
+    }
+    iccp_slide_free(slide);
+    return status;
+}
+
 icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                              int32_t iterations, const iccp_env *env, icc_error *err)
 {
@@ -528,7 +575,7 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     iccp_team team;
     iccp_env with;
     iccp_with_team(&with, &team, env);
-    icc_status status = iccp_map_begin(&next, map->source_domain, target, env, err);
+    icc_status status = begin_moved(&next, map, target, env, err);
     if (status == ICC_OK)
         status = retarget(next, map, iterations, &with, err);
     if (status == ICC_OK)
@@ -538,6 +585,8 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
         status = make_affine(next, iterations, &next->info.energy, env, err);
     if (status == ICC_OK)
         status = set_class_kept(next, map, true, env);
+    if (status == ICC_OK)
+        status = iccp_map_keep_slide(next, map, target);
     if (status != ICC_OK) {
         iccp_map_release(next);
         return iccp_explain(err, status);
@@ -550,7 +599,10 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
 
 icc_status iccp_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *target)
 {
-    return map->kind->tie != NULL ? map->kind->tie(map, tie, info, target) : ICC_ERR_ARGUMENT;
+    if (map->kind->tie == NULL)
+        return ICC_ERR_ARGUMENT;
+    const icc_status status = map->kind->tie(map, tie, info, target);
+    return status == ICC_OK && map->slide != NULL ? iccp_slide_given_tie(map->slide, info) : status;
 }
 
 static void hand_out(const iccp_frame *frame, size_t dim, size_t n, const double *local,
@@ -579,6 +631,7 @@ void iccp_map_release(icc_map *map)
         return;
     if (map->state != NULL)
         map->kind->free_state(map);
+    iccp_slide_free(map->slide);
     iccp_chart_release(map->source);
     iccp_chart_release(map->target);
     iccp_domain_release(map->source_domain);

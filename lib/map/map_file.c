@@ -7,17 +7,26 @@
 #include "base/clock.h"
 #include "domain/domain_file.h"
 #include "map/compatible/plmap_file.h"
+#include "map/correspondence.h"
+#include "map/slide/added_vertices.h"
+#include "map/slide/sliding.h"
 #include "method/load.h"
 
 static const char KIND[] = "MAP_";
-/* Versions of the format: 4 for maps with features, 3 for maps with a chart whose format came with
- * version 2 of charts, 1 for all others. So a map is saved in one way only. Version 2 was for maps
- * with features that do not touch. */
-enum { PLAIN_VERSION = 1, APART_VERSION, CHARTS_VERSION, FEATURES_VERSION = ICCP_VERSION_NETWORKS };
+/* Versions of the format: 5 for maps whose chains slide, 4 for other maps with features, 3 for maps
+ * with a chart whose format came with version 2 of charts, 1 for all others. So a map is saved in
+ * one way only. Version 2 was for maps with features that do not touch. */
+enum {
+    PLAIN_VERSION = 1,
+    APART_VERSION,
+    CHARTS_VERSION,
+    FEATURES_VERSION = ICCP_VERSION_NETWORKS,
+    SLIDING_VERSION = ICCP_VERSION_SLIDING
+};
 
 static bool has_features(const iccp_blob *b)
 {
-    return b->version == FEATURES_VERSION || b->version == APART_VERSION;
+    return b->version >= FEATURES_VERSION || b->version == APART_VERSION;
 }
 
 static icc_status visit_domain(iccp_blob *b, icc_domain **domain, const iccp_env *env)
@@ -32,20 +41,46 @@ static icc_status visit_domain(iccp_blob *b, icc_domain **domain, const iccp_env
     return ICC_ERR_FORMAT;
 }
 
+/* Reads the knots along which chains slide. Begins the map between the domains with these knots. */
+static icc_status read_slide(iccp_blob *b, icc_map **map, const icc_domain *source,
+                             const icc_domain *target, const iccp_env *env)
+{
+    iccp_slide *slide = NULL;
+    icc_domain *larger[2] = {NULL, NULL};
+    icc_status status = iccp_check_correspondence(source, target, NULL);
+    if (status == ICC_OK)
+        status = iccp_slide_visit(b, &slide, source, target, &env->memory);
+    for (int side = 0; side < 2 && status == ICC_OK; ++side)
+        status = iccp_domain_with_knots(&larger[side], slide, side, env, NULL);
+    if (status == ICC_OK)
+        status = iccp_map_begin(map, larger[0], larger[1], env, NULL);
+    if (status == ICC_OK)
+        iccp_map_set_slide(*map, slide);
+    else
+        iccp_slide_free(slide);
+    iccp_domain_release(larger[0]);
+    iccp_domain_release(larger[1]);
+    return status;
+}
+
 /* Reads or writes the domains. When it reads, it begins the map with them. */
 static icc_status visit_domains(iccp_blob *b, icc_map **map, const iccp_env *env)
 {
-    icc_domain *source = b->reads ? NULL : (*map)->source_domain;
-    icc_domain *target = b->reads ? NULL : (*map)->target_domain;
+    const bool slides = b->version == SLIDING_VERSION;
+    icc_domain *source = b->reads ? NULL : slides ? (*map)->slide->given[0] : (*map)->source_domain;
+    icc_domain *target = b->reads ? NULL : slides ? (*map)->slide->given[1] : (*map)->target_domain;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 1}, env);
     icc_status status = visit_domain(b, &source, &part[0]);
     if (status == ICC_OK)
         status = visit_domain(b, &target, &part[1]);
     if (!b->reads)
-        return status;
+        return status != ICC_OK || !slides
+                   ? status
+                   : iccp_slide_visit(b, &(*map)->slide, source, target, &env->memory);
     if (status == ICC_OK)
-        status = iccp_map_begin(map, source, target, env, NULL);
+        status = slides ? read_slide(b, map, source, target, &part[1])
+                        : iccp_map_begin(map, source, target, env, NULL);
     iccp_domain_release(source);
     iccp_domain_release(target);
     return status;
@@ -143,9 +178,10 @@ void iccp_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_by
     icc_map copy = *map, *written = &copy;
     iccp_blob b;
     iccp_blob_begin(&b, data, capacity, KIND,
-                    map->source_domain->features != NULL ? FEATURES_VERSION
-                    : map->source != NULL                ? version_of(map->source, map->target)
-                                                         : PLAIN_VERSION);
+                    map->slide != NULL                     ? SLIDING_VERSION
+                    : map->source_domain->features != NULL ? FEATURES_VERSION
+                    : map->source != NULL                  ? version_of(map->source, map->target)
+                                                           : PLAIN_VERSION);
     (void)visit(&b, &written, part, NULL);
     iccp_blob_end(&b, n_bytes);
 }
@@ -167,8 +203,7 @@ icc_status iccp_map_load(icc_map **out, size_t n_bytes, const void *data, const 
     const double start = iccp_seconds();
     iccp_blob b;
     *out = NULL;
-    icc_status status =
-        iccp_blob_open(&b, data, n_bytes, KIND, FEATURES_VERSION, &env->memory, err);
+    icc_status status = iccp_blob_open(&b, data, n_bytes, KIND, SLIDING_VERSION, &env->memory, err);
     if (status != ICC_OK)
         return status;
     iccp_budget budget;

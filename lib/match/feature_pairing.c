@@ -154,7 +154,9 @@ static icc_status pair_outlines(pairing *p, iccp_union_outline *common, iccp_out
                             "one of its ends with a vertex that is no end",
                             (unsigned long)feature);
     move_outline(p, &outline[0], n);
-    return iccp_pair_moved(common, &outline[0], &outline[1], n, p->shares, p->options, env, err);
+    iccp_elastic_report report;
+    return iccp_pair_moved(common, &report, &outline[0], &outline[1], n, p->shares, p->options, env,
+                           err);
 }
 
 static icc_status pair_feature(pairing *p, iccp_matched_domains *matched, uint32_t feature,

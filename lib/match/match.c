@@ -68,31 +68,36 @@ static icc_status make(icc_match *match, iccp_matched_domains *matched, const ic
     return status;
 }
 
-/* Describes the pairing of the part that is least sure, among those that shapes decided. */
+/* Returns true if a part's pairing tells more about the whole than that of another part. Shapes say
+ * more than what the whole decided; then what is less sure; then what costs more. */
+static bool tells_more(const iccp_part_pair *a, const iccp_part_pair *b)
+{
+    if (a->is_placed != b->is_placed)
+        return b->is_placed;
+    return a->report.sure != b->report.sure ? a->report.sure < b->report.sure
+                                            : a->report.cost > b->report.cost;
+}
+
 static void fill_in(icc_match_info *info, const iccp_paired_parts *paired,
                     const iccp_matched_domains *matched, size_t n_landmarks)
 {
     info->dim = 2;
-    info->cost = info->second = info->sure = HUGE_VAL;
     info->least_slope = HUGE_VAL;
     info->n_vertices = matched->n;
     info->n_landmarks = n_landmarks;
     info->n_joined = matched->n_joined;
-    bool is_first = true;
+    const iccp_part_pair *shown = paired->pair;
     for (size_t k = 0; k < paired->parts[0].n; ++k) {
         const iccp_part_pair *const pair = &paired->pair[k];
-        const iccp_elastic_report *const report = &pair->report;
         info->least_slope = iccp_min(info->least_slope, pair->common.least);
         info->most_slope = iccp_max(info->most_slope, pair->common.most);
-        if (pair->is_placed || (!is_first && report->sure >= info->sure))
-            continue;
-        is_first = false;
-        info->cost = report->cost;
-        info->second = report->second;
-        info->sure = report->sure;
-        info->turn = 360 * report->turn + 0.0; /* + 0.0 turns -0 into 0 */
-        info->mirrored = report->mirrored >= iccp_clearly_better;
+        shown = tells_more(pair, shown) ? pair : shown;
     }
+    info->cost = shown->report.cost;
+    info->second = shown->report.second;
+    info->sure = shown->report.sure;
+    info->turn = 360 * shown->report.turn + 0.0; /* + 0.0 turns -0 into 0 */
+    info->mirrored = shown->report.mirrored >= iccp_clearly_better;
 }
 
 /* Adds the common vertices of both domains: those of the outer ring, then those of the features. */

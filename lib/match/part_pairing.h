@@ -11,19 +11,21 @@ typedef struct iccp_part_pair {
     iccp_outline outline[2];
     iccp_union_outline common;
     iccp_elastic_report report;
-    bool is_placed; /* shape alone is ambiguous, so the whole decided how the part lies */
+    bool is_placed; /* the whole decided how the part lies */
 } iccp_part_pair;
 
 typedef struct iccp_paired_parts {
     const icc_domain *domain[2]; /* borrowed */
     const iccp_domain_parts *parts;
     iccp_part_pair *pair; /* of each part of the source */
-    double *moved;        /* the source's vertices; those of placed parts are turned */
+    double *moved;        /* the source's vertices; those of placed parts are placed */
 } iccp_paired_parts;
 
-/* Pairs the parts and then their outlines. A part whose shape is ambiguous, such as a round dot, is
- * turned as the whole is turned. A domain of a single part is refused instead. ICC_ERR_AMBIGUOUS,
- * ICC_ERR_ARGUMENT, ICC_ERR_BOUNDARY. The caller frees the result even after an error. */
+/* Pairs the parts and then their outlines. The affine map of the whole places each part whose shape
+ * is ambiguous, such as a round dot, or that fits clearly better so. A domain of a single part is
+ * refused instead.
+ * ICC_ERR_AMBIGUOUS, ICC_ERR_ARGUMENT, ICC_ERR_BOUNDARY. The caller frees the result even after an
+ * error. */
 icc_status iccp_pair_parts(iccp_paired_parts *out, const icc_domain *const *domains,
                            const iccp_domain_parts *parts, const iccp_sorted_landmarks *landmarks,
                            const icc_match_options *options, const iccp_env *env, icc_error *err);

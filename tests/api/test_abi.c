@@ -110,6 +110,10 @@ IS(ICC_LOSS_GAP, 8);
 IS(ICC_MAP_CURVES, 1);
 IS(ICC_MAP_MESH, 2);
 
+IS(ICC_SLIDE_NONE, 0);
+IS(ICC_SLIDE_INSIDE, 1);
+IS(ICC_SLIDE_ALL, 2);
+
 IS(ICC_WAY_UP, 1);
 IS(ICC_WAY_DOWN, 2);
 
@@ -382,7 +386,7 @@ AT(icc_tie, source, 24);
 AT(icc_tie, n_target, 32);
 AT(icc_tie, target, 40);
 
-SIZE(icc_map_options, 48);
+SIZE(icc_map_options, 56);
 AT(icc_map_options, size, 0);
 AT(icc_map_options, kind, 8);
 AT(icc_map_options, iterations, 12);
@@ -390,8 +394,9 @@ AT(icc_map_options, chart, 16);
 AT(icc_map_options, target_maximum, 24);
 AT(icc_map_options, n_ties, 32);
 AT(icc_map_options, ties, 40);
+AT(icc_map_options, slide, 48);
 
-SIZE(icc_map_info, 96);
+SIZE(icc_map_info, 104);
 AT(icc_map_info, size, 0);
 AT(icc_map_info, dim, 8);
 AT(icc_map_info, kind, 12);
@@ -407,6 +412,7 @@ AT(icc_map_info, n_lines, 64);
 AT(icc_map_info, n_points, 72);
 AT(icc_map_info, n_ties, 80);
 AT(icc_map_info, detour, 88);
+AT(icc_map_info, n_slid, 96);
 
 SIZE(icc_map_report, 112);
 AT(icc_map_report, size, 0);

@@ -118,4 +118,26 @@ printf '4.5 3\n10.9 0.2\n' >expected
 close_to few expected 1e-9
 [ "$(sed -n 3p out)" = 'nan nan' ] || complain "a place outside all regions has an image"
 run 0 plot -s states.geojson states.svg
+
+# An interface whose vertices are spaced otherwise in the target.
+outline='[[[0,0],[8,0],[8,2],[8,4],[0,4],[0,2],[0,0]]]'
+collection "$(both Polygon "$outline" "$outline")" \
+    "$(both LineString '[[0,2],[2,2],[4,2],[6,2],[8,2]]' '[[0,2],[0.6,2],[2,2],[4,2],[8,2]]' 1)" >slide.geojson
+run 0 info -s slide.geojson --json
+! grep -q '"slid"' out || complain "vertices slide without --slide"
+run 0 info -s slide.geojson --slide --json
+holds out '"slid": 3'
+run 0 info -s slide.geojson --slide
+holds out 'slid        3 places'
+printf '2 2\n6 2\n1 3\n' >points.txt
+run 0 map -s slide.geojson --slide=all -p points.txt
+close_to out points.txt 1e-6
+run 2 map -s slide.geojson --slide --improve 0 -p points.txt
+says '--slide does not go with --improve 0'
+run 2 map -s slide.geojson --slide --ties own.geojson -p points.txt
+says '--slide does not go with --ties'
+run 2 map -s slide.geojson --slide=none -p points.txt
+printf '0 0\n8 0\n8 4\n0 4\n' >plain.txt
+run 1 map -s plain.txt -t plain.txt --slide -p points.txt
+says 'slide: only lines, holes and regions'
 finish

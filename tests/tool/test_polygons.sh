@@ -89,6 +89,30 @@ run 4 map -s case.geojson --geojson in.geojson out.geojson --outside clip
 run 4 map -s case.geojson --geojson in.geojson out.geojson --fill-holes
 holds err '1 of 3 features are not carried as they were, 0 of 5 positions have no image: feature 1'
 
+# An island in a lake covers no lake, whether it lies apart, splits the lake, or fills all but a corner.
+clips() { # REGIONS FATES POLYGON...: which of the polygons, from 0, are not carried as they are
+    cage=$1
+    fates=$2
+    shift 2
+    collection "$(feature source MultiPolygon "[$cage]")" "$(feature target MultiPolygon "[$cage]")" >lake.geojson
+    layer=
+    for one in "$@"; do
+        layer="$layer${layer:+, }$(feature none Polygon "[$one]")"
+    done
+    collection "$layer" >in.geojson
+    run 4 map -s lake.geojson --geojson in.geojson out.geojson --outside clip --tolerance 1e9
+    found=$(sed 's/.*: feature /feature /; s/feature //g; s/ (line 1)//g' err)
+    [ "$found" = "$fates" ] || complain "$found instead of $fates"
+}
+land="[$(square 5 5 5), $(square 5 5 3)]"
+clips "$land, [$(square 5 5 1)]" '2: clipped' "$(square 5 5 1)" "$(square 5 5 0.5)" "$(square 5 5 4)" "$(square 1 5 0.5)"
+clips "$land, [[[2,2],[5,4],[8,8],[4,5],[2,2]]]" '1: null, 2: null' '[[2,2],[5,4],[8,8],[4,5],[2,2]]' '[[2,2],[8,2],[8,8],[5,4],[2,2]]' \
+    '[[2,2],[4,5],[8,8],[2,8],[2,2]]'
+clips "$land, [[[2,2],[8,2],[8,8],[4,8],[2,5],[2,2]]]" '1: clipped' '[[2,2],[8,2],[8,8],[4,8],[2,5],[2,2]]' "$(square 5 5 3)"
+# A lake between regions is no hole of any.
+clips '[[[0,0],[9,0],[6,3],[3,3],[0,0]]], [[[9,0],[9,9],[6,6],[6,3],[9,0]]], [[[9,9],[0,9],[0,0],[3,3],[3,6],[6,6],[9,9]]]' '0: clipped' \
+    '[[0,0],[9,0],[9,9],[0,9],[0,0]]' '[[0,0],[9,0],[6,3],[3,3],[0,0]]'
+
 # Islands in islands, and polygons in another order of nesting than of the file.
 deep() { # ROLE X: an island at X in the lake of the island in the lake
     feature "$1" MultiPolygon "[[$(square "$2" 5 0.5)], [$(square 5 5 9), $(square 5 5 7)], [$(square 5 5 4), $(square 5 5 3)]]"

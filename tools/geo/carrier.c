@@ -4,7 +4,6 @@
 #include "geo/carrier.h"
 
 #include "base/allocate.h"
-#include "geo/inner_point.h"
 #include "geo/rim.h"
 
 #include <float.h>
@@ -48,8 +47,8 @@ static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain
 
 /* An outer ring or region has the inside on its left if it is counter-clockwise, and a hole if it is
  * clockwise. */
-static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info *domain,
-                      size_t n_facets)
+static void add_directions(carrier *c, const icc_domain *from, const icc_domain_info *domain,
+                           size_t n_facets)
 {
     c->reversed = grow(c->reversed, &c->room_reversed, c->n_facets + n_facets, sizeof *c->reversed);
     for (size_t i = 0; i < n_facets; i++)
@@ -63,12 +62,6 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
         for (size_t i = 0; i < hole.n_vertices; i++)
             c->reversed[c->n_facets + hole.first_facet + i] =
                 (hole.orientation > 0) == (is_hole != c->flipped[0]);
-        if (!is_hole)
-            continue;
-        c->in_holes = grow(c->in_holes, &c->room_holes, 2 * (c->n_holes + 1), sizeof *c->in_holes);
-        inner_point(hole.n_vertices, c->vertices[0] + 2 * (c->n_vertices + hole.first_vertex),
-                    c->in_holes + 2 * c->n_holes);
-        c->n_holes++;
     }
 }
 
@@ -130,7 +123,7 @@ icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, c
     if (status != ICC_OK)
         return status;
     if (c->dim == 2)
-        add_holes(c, from, &info[0], n_facets);
+        add_directions(c, from, &info[0], n_facets);
     widen_box(c, &info[0]);
     c->matched = c->matched && info[0].n_facets == info[1].n_facets;
     c->maps = grow(c->maps, &c->room_maps, c->n_maps + 1, sizeof *c->maps);
@@ -161,7 +154,6 @@ void carrier_free(carrier *c)
         free(c->maps[m].place);
     free(c->maps);
     free(c->reversed);
-    free(c->in_holes);
     *c = (carrier){0};
 }
 

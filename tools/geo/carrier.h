@@ -29,13 +29,11 @@ typedef struct carrier {
     double lower[ICC_MAX_DIM], upper[ICC_MAX_DIM];
     bool matched; /* both sides correspond facet by facet */
     double largest;
-    size_t n_vertices, n_facets, room_vertices[2], room_facets[2], room_reversed, room_holes;
+    size_t n_vertices, n_facets, room_vertices[2], room_facets[2], room_reversed;
     double *vertices[2]; /* of the cage and of its image */
     uint32_t *facets[2]; /* dim vertices each; facet i of one corresponds to facet i of the other */
     bool *reversed;      /* in the plane: for each facet, true if the inside of the cage is on
                             its right */
-    size_t n_holes;
-    double *in_holes; /* a point in each hole */
 } carrier;
 
 /* Begins to carry, backwards if `inverse` is set. Free it in any case. Then add the maps, each

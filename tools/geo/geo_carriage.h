@@ -5,6 +5,7 @@
 #include "geo/geo_carry.h"
 #include "geo/geo_layer.h"
 #include "geo/geo_write.h"
+#include "geo/lakes.h"
 
 /* A vertex of a path that is carried: a position of the text, or a node of the layer on the way to
  * the next one. */
@@ -18,6 +19,7 @@ typedef struct origin {
 typedef struct carriage {
     const carrier *cage;
     noding noding;
+    lakes lakes; /* if geometries are clipped */
     const geo_options *options;
     geo_layer layer;
     map_edges *edges; /* lines are cut at them; NULL: they are sampled */

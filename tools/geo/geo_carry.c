@@ -182,11 +182,11 @@ static bool is_around(const geo_shape *s, const double p[2])
     return odd;
 }
 
-/* True if a polygon whose rings all lie in the cage contains a hole of the cage. */
-static bool covers_hole(const carriage *c)
+/* True if a polygon whose rings all lie in the cage contains a lake. */
+static bool covers_lake(const carriage *c)
 {
-    for (size_t k = 0; k < c->cage->n_holes; k++)
-        if (is_around(&c->shape, c->cage->in_holes + 2 * k))
+    for (size_t k = 0; k < c->lakes.n; k++)
+        if (is_around(&c->shape, c->lakes.points + 2 * k))
             return true;
     return false;
 }
@@ -322,7 +322,7 @@ static bool carry_geometry(carriage *c)
     c->out->n_jumps += points ? 0 : count_jumps(&c->read);
     bool whole = points ? take_points(c) : node_all(c) && n_without == 0;
     if (whole && c->options->policy == GEO_CLIP && o->type > GEO_MULTI_LINE)
-        whole = !covers_hole(c);
+        whole = !covers_lake(c);
     if (c->noding.status != ICC_OK)
         return stop(c, c->noding.status);
     bool writes = whole || c->options->policy == GEO_KEEP;
@@ -385,6 +385,7 @@ static void free_carriage(carriage *c)
     geo_index_free(&c->index);
     geo_layer_free(&c->layer);
     noding_free(&c->noding);
+    lakes_free(&c->lakes);
 }
 
 bool geo_carry(geo_result *out, const carrier *carries, const geo_options *options,
@@ -395,6 +396,8 @@ bool geo_carry(geo_result *out, const carrier *carries, const geo_options *optio
     map_edges edges = {0};
     *out = (geo_result){0};
     noding_start(&c.noding, carries);
+    if (options->policy == GEO_CLIP)
+        lakes_find(&c.lakes, carries);
     bool good = !foreign_told(text, n, wrong) && !foreign_table_told(text, wrong) &&
                 geo_index_read(&c.index, text, n, wrong);
     out->sequence = c.index.sequence;

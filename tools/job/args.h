@@ -37,6 +37,7 @@ typedef struct args {
     function_choice functions[MAX_FUNCTIONS];
     size_t n_functions;
     int32_t improve; /* limit of steps; -1: the library's choice */
+    int32_t slide;   /* which chains slide: ICC_SLIDE_ALL; 0: those inside if `slides` */
     double min_fall;
     double tolerance;    /* 0: the command's choice */
     int32_t outside;     /* one of the policies below; 0: the command's choice */

@@ -71,6 +71,11 @@ static int check_method(const args *a, const command *c)
                        a->map == ICC_MAP_CURVES ? "curve" : "gradient");
     if (a->triangulation != NULL && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
         return misused(c->name, "--triangulation needs a mesh map, which is the default");
+    if (a->slides && (a->reach > 0 || a->ties != NULL || a->improve == 0))
+        return misused(c->name, "--slide does not go with --%s",
+                       a->reach > 0      ? "reach"
+                       : a->ties != NULL ? "ties"
+                                         : "improve 0");
     if (a->reach > 0 && (a->method != 0 || a->map == ICC_MAP_CURVES || a->mesh != NULL))
         return misused(c->name, "--%s does not go with --reach",
                        a->method != 0    ? "method"
@@ -317,9 +322,10 @@ static int check_charts(const args *a, const command *c)
 {
     if (a->moves != NULL || a->nearest != NULL)
         return check_moved_mesh(a, c);
-    if (a->slides || a->frees || a->stiffness > 0)
+    const bool slides = a->slides && (c->bit & FOR_MESH) != 0;
+    if (slides || a->frees || a->stiffness > 0)
         return misused(c->name, "--%s goes with --fit",
-                       a->slides  ? "slide"
+                       slides     ? "slide"
                        : a->frees ? "free"
                                   : "stiffness");
     if (a->fill)

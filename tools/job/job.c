@@ -170,6 +170,8 @@ static int make_own_map(job *j)
     icc_chart_options chart = chart_options(j);
     icc_map_options options = {.size = sizeof options, .kind = j->args->map, .chart = &chart};
     options.iterations = j->args->improve > 0 ? j->args->improve : j->args->improve == 0 ? -1 : 0;
+    if (j->args->slides)
+        options.slide = j->args->slide != 0 ? j->args->slide : ICC_SLIDE_INSIDE;
     if (j->args->n_target_maximum > 0)
         options.target_maximum = j->args->target_maximum;
     icc_error err = {.size = sizeof err, .index = -1};

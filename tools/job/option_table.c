@@ -48,6 +48,8 @@ const choice requirements[] = {{"certified", REQUIRE_CERTIFIED}, {NULL, 0}};
 const choice sides[] = {
     {"source", SIDE_SOURCE}, {"target", SIDE_TARGET}, {"both", SIDE_BOTH}, {NULL, 0}};
 
+const choice slidings[] = {{"all", ICC_SLIDE_ALL}, {NULL, 0}};
+
 const choice turnings[] = {{"upright", ICC_TURNING_UPRIGHT}, {"free", ICC_TURNING_FREE}, {NULL, 0}};
 
 const char *choice_name(const choice *choices, int32_t value)
@@ -748,6 +750,16 @@ const option options[] = {
      .high = 1000000,
      .value = "N",
      .help = "maximum number of improvement steps of a mesh map on each level (0: none)"},
+    {.name = "slide",
+     .group = OPTIONS_RARE,
+     .kind = OPTION_WITH_CHOICE,
+     .commands = MAY_PAIR & ~(unsigned)FOR_MESH,
+     .offset = AT(slides),
+     .present = AT(slide),
+     .choices = slidings,
+     .value = "[=all]",
+     .help = "vertices of lines and borders inside may slide along them if that distorts the map "
+             "less; with =all also those of the boundary. Junctions and ends stay partners"},
     {.name = "cells",
      .letter = 'n',
      .group = OPTIONS_RARE,

@@ -50,7 +50,7 @@ typedef struct option {
 
 extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[], samplings[],
     weightings[], kernels[], initials[], outsides[], turnings[], sides[], requirements[],
-    fallbacks[];
+    fallbacks[], slidings[];
 
 /* The name of a value that the library returned. */
 const char *choice_name(const choice *choices, int32_t value);

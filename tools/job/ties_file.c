@@ -17,19 +17,21 @@ size_t ties_of_map(const icc_map *map, const icc_domain *domain, int side, cage_
     double *vertices = need(shape.n_vertices, 2 * sizeof *vertices);
     icc_domain_get_boundary(domain, vertices, NULL);
     *ties = need(info.n_ties, sizeof **ties);
+    size_t n_ties = 0;
     for (size_t i = 0; i < info.n_ties; i++) {
         icc_tie_info tie = {.size = sizeof tie};
-        icc_map_get_tie(map, i, &tie, NULL, NULL);
+        if (icc_map_get_tie(map, i, &tie, NULL, NULL) != ICC_OK)
+            continue; /* one of its ends has slid */
         size_t n = 2 + (side == 1 ? tie.n_source : tie.n_target);
         double *points = need(n, 2 * sizeof *points);
         icc_map_get_tie(map, i, &tie, side == 1 ? points + 2 : NULL, side == 2 ? points + 2 : NULL);
         memcpy(points, vertices + 2 * (size_t)tie.vertex[0], 2 * sizeof *points);
         memcpy(points + 2 * (n - 1), vertices + 2 * (size_t)tie.vertex[1], 2 * sizeof *points);
-        (*ties)[i] =
+        (*ties)[n_ties++] =
             (cage_feature){.kind = CAGE_TIE, .number = (int64_t)i + 1, .n = n, .points = points};
     }
     free(vertices);
-    return info.n_ties;
+    return n_ties;
 }
 
 void ties_free(size_t n, cage_feature *ties)

@@ -182,6 +182,8 @@ static void print_mesh_map(const icc_map_info *m, const icc_map_report *made)
            elements_name(m->dim), m->n_simplices, m->n_vertices, made->n_inverted);
     printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", made->energy_start,
            m->energy, made->n_iterations, (int)made->n_levels);
+    if (m->n_slid > 0)
+        printf("slid        %zu places of vertices\n", m->n_slid);
     if (m->n_ties > 0)
         printf("ties        %zu, %.4g times as long as straight lines%s\n", m->n_ties, m->detour,
                m->class_kept

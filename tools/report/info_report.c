@@ -129,6 +129,8 @@ static void report_mesh_map(json *j, const icc_map_info *m, const icc_map_report
     json_count(j, "refinements", (size_t)made->n_levels);
     json_number(j, "energy_before", made->energy_start);
     json_number(j, "energy", m->energy);
+    if (m->n_slid > 0)
+        json_count(j, "slid", m->n_slid);
     if (m->n_ties > 0) {
         json_count(j, "ties", m->n_ties);
         json_number(j, "detour", m->detour);

@@ -204,6 +204,15 @@ test('a domain may have several outlines, an island in a lake, and lines that me
   assert.deepEqual(lake.features().map(({ kind }) => kind), ['region', 'hole', 'line', 'line']);
 });
 
+test('vertices of a border slide along it', () => {
+  const outline = [[0, 0], [4, 0], [4, 2], [4, 4], [0, 4], [0, 2]];
+  const domain = (middle) => icc.Domain.polygon(outline, { lines: [[[0, 2], [middle, 2.2], [4, 2]]] });
+  const source = domain(2), target = domain(1), map = new icc.Map(source, target, { slide: 'inside' });
+  assert.equal(new icc.Map(source, target).info.nSlid, 0);
+  assert.ok(map.certified && map.info.nSlid === 1 && map.info.energy < new icc.Map(source, target).info.energy);
+  assert.throws(() => new icc.Map(outline, outline, { slide: 'all' }), { code: 'UNSUPPORTED', message: /slide/ });
+});
+
 // A square of 2 x 2 smaller ones, whose middle is vertex 4.
 const NET = { vertices: [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [2, 2]],
   simplices: [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7] };

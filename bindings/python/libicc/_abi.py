@@ -38,8 +38,8 @@ coverage_options weld:f64[2] between:i32 unmatched:i32 n_left_out:size left_out:
 coverage_info n_regions:size n_features:size n_vertices:size n_nodes:size n_sides:size n_islands:size n_settled:size n_joined:size n_differences:size n_left_out:size n_given:size[2] n_welded:size[2] n_inserted:size[2] n_chains:size[2] chain:f64[4] most_moved:f64[2] least_apart:f64[2] least_apart_at:f64[4]
 coverage_difference kind:i32 side:i32 n_ids:i32 ids:i64[2] place:f64[2]
 tie vertex:u32[2] n_source:size source:ptr n_target:size target:ptr
-map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr
-map_info dim:i32 kind:i32 certified:i32 reason:i32 reason_side:i32 class_kept:i32 n_vertices:size n_simplices:size energy:f64 n_holes:size n_lines:size n_points:size n_ties:size detour:f64
+map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr slide:i32
+map_info dim:i32 kind:i32 certified:i32 reason:i32 reason_side:i32 class_kept:i32 n_vertices:size n_simplices:size energy:f64 n_holes:size n_lines:size n_points:size n_ties:size detour:f64 n_slid:size
 map_report seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 energy_start:f64 n_inverted:size n_unrepaired:size n_iterations:size n_levels:i32 n_trees:i32 n_samples:size n_lost:size n_flat:size n_spoilt:size
 tie_info vertex:u32[2] n_source:size n_target:size length:f64[2]
 improve_options iterations:i32 levels:i32 tolerance:f64

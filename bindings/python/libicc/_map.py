@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
 
 KINDS = {"curves": 1, "mesh": 2}
+SLIDES = {"all": 2}
 REPAIRS = {"none": 0, "patches": 1, "whole": 2}
 
 
@@ -71,6 +72,8 @@ class Map(Saved):
             bends (n, 2) of a path between them in each domain. Together they join the pieces of each part
         match: for outlines that do not correspond, which first get common vertices. True: by shape. "arc": by arc
             length. Landmarks (n, 2, 2) or (n, 4): by shape between these. See `Match`
+        slide: True: vertices of lines and borders inside may slide along them if that lowers the energy. "all": those
+            of the boundary as well. Ends, and places where three or more edges meet, stay partners
         progress, threads: as for `Domain`
 
     Raises:
@@ -91,6 +94,7 @@ class Map(Saved):
                  leaf_min: Optional[float] = None, axis_order: Optional[Sequence[int]] = None,
                  ties: Sequence[Tuple[Sequence[int], ArrayLike, ArrayLike]] = (),
                  match: Union[bool, str, ArrayLike, None] = None,
+                 slide: Union[bool, str] = False,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         source, target = as_domains(source, target)
         if match is not None and match is not False:
@@ -99,7 +103,8 @@ class Map(Saved):
         chart = chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
                               min_fall, leaf_min, axis_order)
         options = new("map_options", kind=choose(kind, KINDS, "kind"), chart=ctypes.addressof(chart),
-                      iterations=0 if improve is None else improve or -1)
+                      iterations=0 if improve is None else improve or -1,
+                      slide=int(slide) if isinstance(slide, bool) else choose(slide, SLIDES, "slide"))
         if target_maximum is not None:
             point = floats(target_maximum, (target.dim,), "target_maximum")
             options.target_maximum = address(point)

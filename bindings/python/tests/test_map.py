@@ -362,3 +362,31 @@ def test_what_rounding_spoils_is_said() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         near.mesh()
+
+
+def interface(n, power):
+    """Vertices of a line across a square, spaced by a power."""
+    share = np.linspace(0, 1, n) ** power
+    return np.column_stack([4 * share, 2 + 0.3 * np.sin(2 * np.pi * share) * (share < 1)])
+
+
+def test_vertices_of_an_interface_slide(tmp_path):
+    outline = [[0, 0], [4, 0], [4, 2], [4, 4], [0, 4], [0, 2]]
+    before, after = interface(9, 1), interface(9, 1.7)
+    source, target = libicc.Domain(outline, lines=[before]), libicc.Domain(outline, lines=[after])
+    still, mapping = libicc.Map(source, target), libicc.Map(source, target, slide=True)
+    everywhere = libicc.Map(source, target, slide="all")
+    assert still.info.n_slid == 0 and mapping.info.n_slid == 7 and mapping.certified and everywhere.certified
+    assert mapping.info.energy < 4.1 < still.info.energy
+    np.testing.assert_allclose(mapping(before)[[0, -1]], after[[0, -1]], atol=1e-14)
+    ends = np.column_stack([after[:-1], after[1:]])
+    for x, y in mapping(before)[1:-1]:
+        side = ends[np.searchsorted(after[:, 0], x) - 1]
+        assert abs(y - np.interp(x, side[[0, 2]], side[[1, 3]])) < 1e-13
+    mapping.save(tmp_path / "slid.icc")
+    assert libicc.Map.load(tmp_path / "slid.icc").info.n_slid == 7
+    assert mapping.retarget(source).info.n_slid == 7
+    with pytest.raises(libicc.UnsupportedError, match="slide"):
+        libicc.Map(outline, outline, slide=True)
+    with pytest.raises(ValueError, match="slide must be one of all"):
+        libicc.Map(source, target, slide="some")

@@ -18,7 +18,8 @@ static const double LEAST_MERGED_ROUNDNESS = 1e-4;
 typedef struct coarsening {
     const iccp_memory *memory;
     iccp_plmap *map;
-    double rise, mean; /* the energy around a vertex may rise by this share, or to this mean */
+    double rise, mean; /* the energy around a vertex may rise by this share, or to this mean, */
+    double worth;      /* or by this amount */
     double longest;    /* no new edge is longer than this */
     uint32_t *corner;  /* of each vertex that is left: a corner at it */
     uint32_t *queue;   /* a ring of n_vertices: n_queued vertices from `first` on */
@@ -114,7 +115,7 @@ static size_t best_neighbour(const coarsening *o, uint32_t vertex, const star *s
     for (size_t k = 0; k < s->n; ++k)
         iccp_quality_add(&now, o->map, vertex, s->ring[k], s->ring[k + 1]);
     const double least = iccp_min(now.roundness, LEAST_MERGED_ROUNDNESS);
-    double most = iccp_max((1 + o->rise) * now.energy, o->mean * now.area);
+    double most = iccp_max((1 + o->rise) * now.energy + o->worth, o->mean * now.area);
     for (size_t j = 0; j < s->n; ++j) {
         const double energy = may[j] ? energy_merged(o, s, j, most, least) : HUGE_VAL;
         if (energy < HUGE_VAL && (best == s->n || energy < most)) {
@@ -259,5 +260,12 @@ icc_status iccp_coarsen_within(iccp_plmap *map, double rise, double longest, siz
                                const iccp_env *env)
 {
     coarsening o = {.memory = &env->memory, .map = map, .rise = rise, .longest = longest};
+    return coarsen(&o, n_gone, env);
+}
+
+icc_status iccp_coarsen_worthless(iccp_plmap *map, double worth, size_t *n_gone,
+                                  const iccp_env *env)
+{
+    coarsening o = {.memory = &env->memory, .map = map, .worth = worth, .longest = HUGE_VAL};
     return coarsen(&o, n_gone, env);
 }

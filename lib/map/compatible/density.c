@@ -23,8 +23,8 @@ static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle)
     return best;
 }
 
-/* Goes from a triangle to the one across its longest edge, as long as edges grow. Returns the
- * corner that faces the last edge. */
+/* Goes from a triangle to the one across its longest edge, as long as edges grow and may be cut.
+ * Returns the corner that faces the last edge. */
 static uint32_t end_of_way(const iccp_plmap *map, uint32_t triangle)
 {
     uint32_t corner = longest_of(map, triangle);
@@ -33,7 +33,7 @@ static uint32_t end_of_way(const iccp_plmap *map, uint32_t triangle)
         if (twin == ICCP_NO_NEIGHBOUR)
             return corner;
         const uint32_t next = longest_of(map, twin / 3);
-        if (!(length2(map, next) > length2(map, corner)))
+        if (!(length2(map, next) > length2(map, corner)) || !iccp_plmap_may_cut(map, next))
             return corner;
         corner = next;
     }

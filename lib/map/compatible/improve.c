@@ -1,11 +1,16 @@
 /* Improves a plane map (docs/theory/plane-maps.md). map/energy/refinement.c decides when to take
- * steps and when to refine. This file cuts the triangles that have most of the energy. */
+ * steps and when to refine. This file cuts the triangles that have most of the energy, and in the
+ * end merges the vertices that are not worth their triangles. */
 #include "map/compatible/improve.h"
 
+#include "base/minmax.h"
 #include "base/sort.h"
 #include "base/threads.h"
+#include "domain/network.h"
+#include "map/compatible/coarsen.h"
 #include "map/compatible/flips.h"
 #include "map/compatible/points_and_images.h"
+#include "map/compatible/triangle_quality.h"
 #include "map/energy/dirichlet.h"
 #include "math/vec.h"
 
@@ -158,6 +163,68 @@ static icc_status unlock(iccp_plmap *map, const iccp_env *env)
     return status == ICC_OK && n_cut > 0 ? iccp_flip_edges(map, &n_flips, env) : status;
 }
 
+/* ---- vertices that are not worth their triangles ---- */
+
+/* Returns what a vertex must be worth. A refinement that is not in vain gains LEAST_GAIN and cuts
+ * MOST_CUT of the triangles, so this is what each cut must gain. */
+static double least_worth(const iccp_plmap *map)
+{
+    const uint32_t *v = map->corners.vertex;
+    iccp_quality all = iccp_no_quality();
+    for (size_t t = 0; t < map->corners.n_triangles; ++t)
+        iccp_quality_add(&all, map, v[3 * t], v[3 * t + 1], v[3 * t + 2]);
+    return LEAST_GAIN * all.energy / (MOST_CUT * (double)map->corners.n_triangles);
+}
+
+/* Merges vertices that are worth less, and takes steps on the mesh that is left. */
+static icc_status merge_and_descend(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
+                                    iccp_improvement *improvement, size_t *n_gone,
+                                    const iccp_env *env)
+{
+    const iccp_descent descent = {0, schedule->iterations, schedule->tolerance, 0, false};
+    size_t n_flips;
+    icc_status status = iccp_coarsen_worthless(map, least_worth(map), n_gone, env);
+    if (status == ICC_OK && *n_gone > 0)
+        status = iccp_flip_edges(map, &n_flips, env);
+    if (status == ICC_OK && *n_gone > 0)
+        status = descend(map, &descent, schedule->moves_points, work, improvement, env);
+    return status;
+}
+
+/* Merges vertices in rounds, as long as a round takes away a share of LEAST_GAIN of them. A round
+ * after which the energy is above `most` is taken back, and so is one that failed. */
+static icc_status thin_out(iccp_plmap *map, const iccp_schedule *schedule, double most,
+                           iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+{
+    icc_status status = ICC_OK;
+    for (bool goes_on = true; status == ICC_OK && goes_on;) {
+        const double energy = improvement->energy, n = (double)map->n_vertices;
+        size_t n_gone = 0;
+        iccp_plmap before;
+        status = iccp_plmap_copy(&before, map, &map->memory);
+        if (status != ICC_OK)
+            break;
+        before.plan = map->plan;
+        status = merge_and_descend(map, schedule, work, improvement, &n_gone, env);
+        goes_on = (double)n_gone >= LEAST_GAIN * n;
+        if (status != ICC_OK || !(improvement->energy <= most)) {
+            const iccp_plmap worse = *map;
+            *map = before;
+            before = worse;
+            improvement->energy = energy;
+            goes_on = false;
+        }
+        iccp_plmap_free(&before);
+    }
+    return status;
+}
+
+/* Whether sides of a network meet inside or on the rim. */
+static bool has_junctions(const iccp_plmap *map)
+{
+    return map->featured != NULL && iccp_network_of(map->featured)->n_junctions > 0;
+}
+
 icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
                         iccp_improvement *improvement, const iccp_env *env)
 {
@@ -168,7 +235,12 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
                                        .descend = descend,
                                        .refine = refine_and_flip};
     const bool starts = schedule->levels > 0 && !schedule->is_relaxed;
-    const icc_status status = starts ? unlock(map, env) : ICC_OK;
-    return status == ICC_OK ? iccp_improve_by(&PLANE, map, schedule, work, improvement, env)
-                            : status;
+    const double energy = iccp_plmap_energy(map);
+    icc_status status = starts ? unlock(map, env) : ICC_OK;
+    if (status == ICC_OK)
+        status = iccp_improve_by(&PLANE, map, schedule, work, improvement, env);
+    if (status == ICC_OK && schedule->levels > 0 && has_junctions(map))
+        status = thin_out(map, schedule, iccp_min((1 + LEAST_GAIN) * improvement->energy, energy),
+                          work, improvement, env);
+    return status;
 }

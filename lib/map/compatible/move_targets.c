@@ -9,6 +9,7 @@
 
 #include "map/compatible/coarsen.h"
 #include "map/compatible/flips.h"
+#include "map/compatible/moving_part.h"
 #include "map/energy/continuation.h"
 #include "map/energy/descent.h"
 #include "map/energy/dirichlet.h"
@@ -149,7 +150,8 @@ static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const ic
  * crowded mesh only tenser triangles are cut, and merging may cost more. */
 static double crowding(const iccp_plmap *map, const iccp_mesh_limits *limits)
 {
-    const double times = (double)map->corners.n_triangles / (double)limits->most_triangles;
+    const double n = (double)(map->corners.n_triangles + limits->n_elsewhere);
+    const double times = n / (double)limits->most_triangles;
     return iccp_max(1, times * times);
 }
 
@@ -178,6 +180,7 @@ static const double BLOCKED = 0.35;
 
 typedef struct tended {
     iccp_plmap *map;
+    const icc_domain *old_target; /* or NULL */
     const iccp_mesh_limits *limits;
 } tended;
 
@@ -197,7 +200,8 @@ static iccp_simplicial_map see(const void *map)
 static void place(const void *map, const icc_domain *target, size_t point, double *place)
 {
     const tended *t = map;
-    iccp_target_place(t->map, target, point, place);
+    if (t->old_target == NULL || !iccp_stays(t->map, point, t->old_target, target))
+        iccp_target_place(t->map, target, point, place);
 }
 
 static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
@@ -206,11 +210,12 @@ static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
     return iccp_improve_moving(t->map, t->limits, 0, work, env);
 }
 
-icc_status iccp_move_targets(iccp_plmap *map, const icc_domain *target,
-                             const iccp_mesh_limits *limits, size_t patience, iccp_work *work,
-                             bool *reached, double *room, const iccp_env *env)
+icc_status iccp_move_targets(iccp_plmap *map, const icc_domain *old_target,
+                             const icc_domain *target, const iccp_mesh_limits *limits,
+                             size_t patience, iccp_work *work, bool *reached, double *room,
+                             const iccp_env *env)
 {
     static const iccp_continuation PLANE = {see, place, BLOCKED, mend};
-    tended t = {map, limits};
+    tended t = {map, old_target, limits};
     return iccp_continue(&PLANE, &t, target, patience, work, reached, room, env);
 }

@@ -258,7 +258,7 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
     double point[2], image[2];
     middle_of(iccp_plmap_point(map, after), iccp_plmap_point(map, before), point);
     middle_of(iccp_plmap_image(map, after), iccp_plmap_image(map, before), image);
-    *done = can_cut(map, corner, point, image) &&
+    *done = iccp_plmap_may_cut(map, corner) && can_cut(map, corner, point, image) &&
             (twin == ICCP_NO_NEIGHBOUR || can_cut(map, twin, point, image));
     if (!*done)
         return ICC_OK;

@@ -24,7 +24,7 @@
  *   both and refines the mesh.
  * - To another mesh: coarsen.h, density.h. What new triangles are worth: triangle_quality.h.
  * - To bytes: plmap_file.h.
- * - To another target: move_targets.h.
+ * - To another target: move_targets.h, for the faces that change: moving_part.h.
  *
  * Begin with this file, then overlay.c. */
 #ifndef ICCP_PLMAP_H
@@ -44,7 +44,7 @@ enum {
     ICCP_ALONG,     /* to the boundary: the facet of the edge that begins there and has the inside
                        on its left. The facet runs along with the edge */
     ICCP_AGAINST,   /* the same, but the facet runs against the edge */
-    ICCP_ON_POINT,  /* held inside the mesh (map/nearest, lib/fit): no facet */
+    ICCP_ON_POINT,  /* held inside the mesh (moving_part.h, map/nearest, lib/fit): no facet */
     ICCP_ON_NETWORK /* to the network of a source with features: a side of it, or a lone point. At a
                        node, `facet` and `along` are the node's place (domain/network.h) */
 };
@@ -180,6 +180,17 @@ static inline bool iccp_plmap_is_line(const iccp_plmap *map, uint32_t corner)
            iccp_plmap_on_line(map, a, b, &facet, &from, &to);
 }
 
+/* Whether the edge that a corner faces may be cut. It may not in a part of a map with features
+ * (moving_part.h) if the edge has a triangle outside the part, or an end that is held. */
+static inline bool iccp_plmap_may_cut(const iccp_plmap *map, uint32_t corner)
+{
+    const uint32_t *v = map->corners.vertex;
+    return map->featured == NULL || iccp_plmap_is_line(map, corner) ||
+           (map->corners.twin[corner] != ICCP_NO_NEIGHBOUR &&
+            map->fixed[v[iccp_after(corner)]] != ICCP_ON_POINT &&
+            map->fixed[v[iccp_before(corner)]] != ICCP_ON_POINT);
+}
+
 /* Finds the mesh's vertex at each vertex of a source with features. Returns false unless there is
  * exactly one at each node. */
 bool iccp_plmap_find_vertices(const iccp_plmap *map, uint32_t *vertex);
@@ -191,8 +202,9 @@ bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);
 /* Whether that holds for all triangles. */
 bool iccp_plmap_is_positive(const iccp_plmap *map);
 
-/* Cuts the edge that a corner faces at its middle, before and after the map. *done is false if
- * rounding would spoil a triangle that is positive now. Makes room as needed. */
+/* Cuts the edge that a corner faces at its middle, before and after the map. *done is false if the
+ * edge may not be cut, or if rounding would spoil a triangle that is positive now. Makes room as
+ * needed. */
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done);
 
 /* Cuts all chords at their middles, so that there are free vertices between fixed ones. All

@@ -152,13 +152,13 @@ static icc_status read_rest(iccp_blob *b, iccp_plmap *map, const icc_domain *sou
     if (status != ICC_OK)
         return status;
     iccp_plmap_fix_none(map, source->features != NULL ? source : NULL);
-    if (b->version != ICCP_VERSION_NETWORKS) {
+    if (b->version < ICCP_VERSION_NETWORKS) {
         find_boundary(map, source);
         visit_boundary(b, map, source->n_facets);
     }
     if (b->status == ICC_OK && source->features != NULL) {
-        read_fixed(b, map, b->version == ICCP_VERSION_NETWORKS ? 0 : source->n_facets);
-        if (b->version != ICCP_VERSION_NETWORKS)
+        read_fixed(b, map, b->version >= ICCP_VERSION_NETWORKS ? 0 : source->n_facets);
+        if (b->version < ICCP_VERSION_NETWORKS)
             place_nodes(map);
     }
     return b->status == ICC_OK && (source->features != NULL || follows_facets(map, source, target))

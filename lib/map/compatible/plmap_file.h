@@ -6,7 +6,7 @@
 #include "map/compatible/plmap.h"
 
 /* The version of the bytes of maps that lists vertices on a network (map/map_file.c). */
-enum iccp_plmap_version { ICCP_VERSION_NETWORKS = 4 };
+enum iccp_plmap_version { ICCP_VERSION_NETWORKS = 4, ICCP_VERSION_SLIDING };
 
 /* Reads into a map that is all zero, or writes. ICC_ERR_FORMAT unless the triangles are a manifold
  * whose boundary goes once along the facets of both domains, which have no features. The

@@ -8,7 +8,8 @@
 /* What plane and space do differently. */
 typedef struct iccp_continuation {
     iccp_simplicial_map (*see)(const void *map); /* returns a view of the map */
-    /* Writes where a target wants the image of a fixed point. */
+    /* Writes where a target wants the image of a fixed point. `place` has its present image, so a
+     * point stays if nothing is written. */
     void (*place)(const void *map, const icc_domain *target, size_t point, double *place);
     double blocked; /* a part of the way that is shorter than this share counts as blocked */
     /* Changes the mesh where it blocks the way. */

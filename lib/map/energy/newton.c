@@ -118,6 +118,18 @@ void iccp_newton_free(iccp_newton *newton)
 
 /* ---- the step ---- */
 
+/* Takes from the step what rounding adds across rails. */
+static void stay_on_rails(iccp_newton *s)
+{
+    for (size_t i = 0; i < s->assembly.n_free; ++i) {
+        const double *r = iccp_newton_rail(&s->map, s->assembly.free_point[i]);
+        double *step = s->step + 2 * i;
+        const double along = r != NULL ? r[0] * step[0] + r[1] * step[1] : 0;
+        for (size_t d = 0; r != NULL && d < 2; ++d)
+            step[d] = along * r[d];
+    }
+}
+
 static icc_status solve_directly(iccp_newton *s, const iccp_symmetric *hessian, const iccp_env *env)
 {
     const icc_status status = iccp_ldlt_factorise(&s->factor, hessian, env);
@@ -126,6 +138,8 @@ static icc_status solve_directly(iccp_newton *s, const iccp_symmetric *hessian, 
     for (size_t i = 0; i < hessian->n; ++i)
         s->step[i] = -s->assembly.gradient[i];
     iccp_ldlt_solve_at_once(&s->factor, 1, s->step, s->work, &s->threads);
+    if (s->map.rail != NULL)
+        stay_on_rails(s);
     return ICC_OK;
 }
 

@@ -6,6 +6,7 @@
 #include "base/threads.h"
 #include "map/energy/newton.h"
 
+#include <math.h>
 #include <stdatomic.h>
 
 struct iccp_newton_plan {
@@ -37,6 +38,13 @@ static ICCP_INLINE const double *iccp_newton_images(size_t dim, const iccp_newto
 {
     iccp_simplicial_images(dim, &s->map, s->assembly.simplex[e], image);
     return s->element + ICCP_ELEMENT(dim) * e;
+}
+
+/* Returns the rail of a point of a map that has rails, or NULL if the point moves freely. */
+static inline const double *iccp_newton_rail(const iccp_simplicial_map *map, uint32_t point)
+{
+    const double *rail = map->rail + 2 * (size_t)point;
+    return fabs(rail[0]) + fabs(rail[1]) > 0 ? rail : NULL;
 }
 
 /* Find the order of elimination, then the parts in which the matrix is summed. */

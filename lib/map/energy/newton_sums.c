@@ -131,6 +131,48 @@ static void find_some(const loop *l, size_t n, const size_t *e, iccp_local *loca
         add_model(l, e[i], &local[i]);
 }
 
+/* Leaves in the derivatives of a triangle only what motions along rails change. */
+static void put_on_rails(const iccp_newton *s, size_t e, iccp_local *local)
+{
+    const uint32_t *v = s->map.corners + 3 * (size_t)s->assembly.simplex[e];
+    for (size_t k = 0; k < 3; ++k) {
+        const double *r = iccp_newton_rail(&s->map, v[k]);
+        double *g = local->gradient + 2 * k, *h = local->hessian;
+        if (r == NULL)
+            continue;
+        const double slope = r[0] * g[0] + r[1] * g[1];
+        for (size_t d = 0; d < 2; ++d)
+            g[d] = slope * r[d];
+        for (size_t i = 0; i < 6; ++i) {
+            const double along = r[0] * h[6 * i + 2 * k] + r[1] * h[6 * i + 2 * k + 1];
+            for (size_t d = 0; d < 2; ++d)
+                h[6 * i + 2 * k + d] = along * r[d];
+        }
+        for (size_t i = 0; i < 6; ++i) {
+            const double along = r[0] * h[12 * k + i] + r[1] * h[12 * k + 6 + i];
+            for (size_t d = 0; d < 2; ++d)
+                h[12 * k + 6 * d + i] = along * r[d];
+        }
+    }
+}
+
+/* Makes the Hessian regular across the rails. The gradient is 0 there. */
+static void brace_rails(iccp_newton *s)
+{
+    iccp_assembly *a = &s->assembly;
+    for (size_t i = 0; s->map.rail != NULL && i < a->n_free; ++i) {
+        const double *r = iccp_newton_rail(&s->map, a->free_point[i]);
+        if (r == NULL)
+            continue;
+        const double stiffness = a->diagonal[2 * i] + a->diagonal[2 * i + 1];
+        const double across[2] = {-r[1], r[0]};
+        for (size_t d = 0; d < 2; ++d) {
+            a->diagonal[2 * i + d] += stiffness * across[d] * across[d];
+            a->value[a->first[2 * i + d]] += stiffness * across[0] * across[1];
+        }
+    }
+}
+
 /* Adds elements list[begin] .. list[end - 1], or begin .. end - 1 if `list` is NULL. */
 static void add_elements(const loop *l, size_t part, const uint32_t *list, size_t begin, size_t end)
 {
@@ -141,8 +183,11 @@ static void add_elements(const loop *l, size_t part, const uint32_t *list, size_
         for (size_t i = 0; i < n; ++i)
             e[i] = list != NULL ? list[k + i] : k + i;
         find_some(l, n, e, local);
-        for (size_t i = 0; i < n; ++i)
+        for (size_t i = 0; i < n; ++i) {
+            if (l->s->map.rail != NULL)
+                put_on_rails(l->s, e[i], &local[i]);
             iccp_assembly_add(&l->s->assembly, part, e[i], &local[i]);
+        }
     }
 }
 
@@ -188,6 +233,7 @@ void iccp_newton_sum_ahead(iccp_newton *newton, iccp_energy energy)
     iccp_assembly_begin(&s->assembly, 0, s->assembly.n_free);
     add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
     iccp_assembly_end(&s->assembly);
+    brace_rails(s);
 }
 
 void iccp_newton_sum(iccp_newton *newton, iccp_energy energy, double epsilon)
@@ -207,6 +253,7 @@ void iccp_newton_sum(iccp_newton *newton, iccp_energy energy, double epsilon)
     else
         add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
     iccp_assembly_end(&s->assembly);
+    brace_rails(s);
 }
 
 bool iccp_newton_has_worst(const iccp_newton *newton)

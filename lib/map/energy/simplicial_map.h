@@ -25,6 +25,8 @@ typedef struct iccp_simplicial_map {
     const double *model;  /* dim of each point: the images of a model that the map shall stay near,
                             or NULL */
     double pull;          /* how strongly the model attracts the map in Newton's steps (model.h) */
+    const double *rail; /* in the plane, 2 of each point: the unit vector along which Newton's steps
+                             move its image, or 0 0 if they move it freely; NULL: all are free */
 } iccp_simplicial_map;
 
 /* Returns the map of a mesh, with a stretch of 1. */

@@ -146,6 +146,9 @@ icc_status iccp_isotopy_create(iccp_isotopy **out, const iccp_plmap *map, const 
     if (isotopy == NULL)
         return ICC_ERR_MEMORY;
     isotopy->memory = isotopy->sequences.memory = env->memory;
+    isotopy->detour = 1;
+    if (iccp_network_of(source)->n_pieces == 1) /* nothing to join: there is one class */
+        return ICC_OK;
     icc_status status = iccp_domain_pair_create(&domains, source, target, env);
     if (status == ICC_OK) {
         status = describe(isotopy, map, &domains, env);

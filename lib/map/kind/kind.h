@@ -83,6 +83,8 @@ struct icc_map {
     iccp_memory memory;
     const iccp_map_kind *kind;
     icc_domain *source_domain, *target_domain;
+    struct iccp_slide *slide; /* how its chains slide (map/slide/knots.h), or NULL. Then the domains
+                                 have its knots as vertices */
     icc_chart *source, *target; /* both NULL for a retargeted map and with features */
     void *state;                /* the kind's own data */
     iccp_map_facts info;

@@ -11,6 +11,7 @@ typedef struct iccp_map_facts {
     double energy;
     size_t n_holes, n_lines, n_points, n_ties;
     double detour;
+    size_t n_slid;
     /* How it was made. */
     double seconds, seconds_repair, seconds_improve, seconds_certify;
     double energy_start;

@@ -33,7 +33,8 @@ typedef struct iccp_mesh_map {
     double reach[2];       /* of the bands of source and target (geometry/band.h) */
     iccp_finder before;    /* in the source */
     iccp_finder after;     /* in the target */
-    iccp_once plan;        /* Newton's, of the mesh: made when the map is first followed */
+    iccp_once plan;        /* Newton's, of the mesh or of the part that moved last: made when the
+                              map is first followed */
     iccp_isotopy *isotopy; /* with features; NULL where rounding is in the way */
     double work;           /* spent on making it: see map/energy/work.h */
 } iccp_mesh_map;

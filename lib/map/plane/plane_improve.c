@@ -41,9 +41,9 @@ icc_status iccp_plane_complete(iccp_mesh_map *map, const icc_improve_options *op
     return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[1]) : status;
 }
 
-void iccp_plane_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan)
+void iccp_plane_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan, const iccp_plmap *mesh)
 {
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(mesh);
     map->pl.plan = NULL;
     if (plan != NULL && iccp_newton_plan_fits(plan, &simplicial))
         (void)iccp_once_keep(&map->plan, iccp_newton_plan_retain(plan));

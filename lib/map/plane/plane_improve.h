@@ -16,8 +16,9 @@ icc_status iccp_plane_complete(iccp_mesh_map *map, const icc_improve_options *op
                                const iccp_schedule *how, iccp_work *work, iccp_map_facts *info,
                                const iccp_env *env);
 
-/* Keeps Newton's plan for maps that follow, if the mesh is still the plan's. */
-void iccp_plane_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan);
+/* Keeps Newton's plan for maps that follow, if `mesh` is still the plan's. That is the mesh of the
+ * map, or of the part that moved last. */
+void iccp_plane_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan, const iccp_plmap *mesh);
 
 /* Improves a copy of a map between domains of n_facets. See icc_map_improve(). */
 icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,

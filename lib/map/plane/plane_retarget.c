@@ -8,6 +8,7 @@
 #include "domain/features.h"
 #include "map/compatible/density.h"
 #include "map/compatible/move_targets.h"
+#include "map/compatible/moving_part.h"
 #include "map/plane/feature_start.h"
 #include "map/plane/plane_improve.h"
 
@@ -24,7 +25,8 @@ enum { CAGE_ITERATIONS = 8, FEATURE_ITERATIONS = -1 };
 enum { ENOUGH = 1000, CELLS = 15, MANY = 1400, MANY_EACH = 8 };
 
 /* How many times in turn a blocked motion may change the mesh. PATIENCE: before rebuild().
- * LAST_PATIENCE: after rebuild() failed, and for cages, which are not rebuilt. */
+ * LAST_PATIENCE: after rebuild() failed, for a part of a map, and for cages, which are not
+ * rebuilt. */
 enum { PATIENCE = 0, LAST_PATIENCE = 1 };
 
 /* Moves the images of fixed vertices to where another target wants them. */
@@ -38,32 +40,59 @@ static void move_boundary(iccp_plmap *pl, const icc_domain *target)
 /* Copies the map. The images stay where they were, but in the frame of the new target. */
 static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain *source,
                         const icc_domain *old_target, const icc_domain *target,
-                        const iccp_newton_plan *plan, const iccp_memory *memory)
+                        const iccp_memory *memory)
 {
     const icc_status status = iccp_plmap_copy(pl, old, memory);
     if (status != ICC_OK)
         return status;
     iccp_frame_change(&old_target->frame, &target->frame, 2, pl->n_vertices, pl->images);
-    pl->plan = plan;
     pl->stretch = sqrt(target->measure / source->measure);
     return ICC_OK;
 }
 
-/* The domains of a motion. */
+static bool same_memory(const iccp_memory *a, const iccp_memory *b)
+{
+    return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
+}
+
+/* Finds the plan of Newton's method for a mesh that follows a map. The maps that follow share it,
+ * and the first of them makes it. *plan is NULL if the two maps use different allocators. It is
+ * released by the caller. */
+static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_plmap *mesh,
+                          const iccp_env *env)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(mesh);
+    *plan = NULL;
+    if (!same_memory(&map->pl.memory, &env->memory))
+        return ICC_OK;
+    iccp_newton_plan *const known = iccp_once_get(&map->plan);
+    if (known != NULL && iccp_newton_plan_fits(known, &simplicial)) {
+        *plan = iccp_newton_plan_retain(known);
+        return ICC_OK;
+    }
+    const icc_status status = iccp_newton_plan_create(plan, &simplicial, env);
+    if (status == ICC_OK && known == NULL &&
+        iccp_once_keep(&map->plan, iccp_newton_plan_retain(*plan)) != *plan)
+        iccp_newton_plan_release(*plan);
+    return status;
+}
+
+/* A motion: the map that is moved, its domains, and the target that it shall reach. */
 typedef struct journey {
-    const iccp_isotopy *isotopy;
+    const iccp_mesh_map *map;
     const icc_domain *source, *old_target, *target;
+    bool has_plan; /* Newton's plan is kept for the next frame */
 } journey;
 
-/* Makes a new map in the isotopy class that the moved map would have. *made: whether that worked.
- * Otherwise the map stays as it is. */
+/* Makes a new map in the isotopy class that the moved map would have. All faces change. *made:
+ * whether that worked. Otherwise the map stays as it is. */
 static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp_work *work,
                           bool *made, const iccp_env *env)
 {
     iccp_cuts cuts;
     iccp_plmap fresh = {.memory = env->memory};
     icc_status status =
-        iccp_isotopy_move(&cuts, made, j->isotopy, j->source, j->old_target, j->target, env);
+        iccp_isotopy_move(&cuts, made, j->map->isotopy, j->source, j->old_target, j->target, env);
     if (status == ICC_OK && *made)
         status = iccp_feature_start_from(&fresh, j->source, j->target, &cuts, work, env);
     if (status == ICC_OK && *made)
@@ -79,68 +108,98 @@ static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp
     return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
 }
 
-/* Moves a map with features to another target, part by part. If the way is blocked, the map is
- * rebuilt in its class. Every state on the way is one-to-one, so the class is kept. */
+/* What moves: the mesh of a map, or of a part of it. */
+typedef struct traveller {
+    iccp_mesh_map *map;
+    iccp_plmap *mesh;
+    const icc_domain *old_target; /* vertices that have the same place there stay; NULL: none */
+    iccp_mesh_limits limits;
+    bool reached;
+    double room;
+} traveller;
+
+static icc_status go(traveller *t, const journey *j, size_t patience, iccp_allowance *work,
+                     const iccp_env *env)
+{
+    return iccp_move_targets(t->mesh, t->old_target, j->target, &t->limits, patience, &work->search,
+                             &t->reached, &t->room, env);
+}
+
+/* Moves to the target. If the way is blocked, the whole map is rebuilt in its class. A part is
+ * mended before that. */
+static icc_status go_or_rebuild(traveller *t, const journey *j, iccp_allowance *work,
+                                const iccp_env *env)
+{
+    const bool is_whole = t->mesh == &t->map->pl;
+    icc_status status = go(t, j, is_whole ? PATIENCE : LAST_PATIENCE, work, env);
+    if (status != ICC_OK || t->reached)
+        return status;
+    status = rebuild(&t->map->pl, j, t->limits.longest_edge, &work->overlay, &t->reached, env);
+    if (status == ICC_OK && !t->reached)
+        return go(t, j, LAST_PATIENCE, work, env);
+    t->mesh = &t->map->pl;
+    t->limits.n_elsewhere = 0;
+    return status;
+}
+
+/* Moves the part of a map with features that changes. */
+static icc_status move_part(iccp_mesh_map *map, iccp_moving_part *part, const journey *j,
+                            iccp_allowance *work, bool *reached, const iccp_env *env)
+{
+    iccp_plmap *const mesh = part->is_whole ? &map->pl : &part->map;
+    const size_t n = map->pl.corners.n_triangles;
+    traveller t = {.map = map,
+                   .mesh = mesh,
+                   .old_target = part->is_whole ? NULL : j->old_target,
+                   .limits = {iccp_planar_step(j->target, CELLS),
+                              MANY + MANY_EACH * j->source->features->n_places,
+                              n - mesh->corners.n_triangles}};
+    iccp_newton_plan *plan = NULL;
+    icc_status status = ICC_OK;
+    if (n < ENOUGH)
+        status = iccp_limit_edges(mesh, t.limits.longest_edge, env);
+    if (status == ICC_OK && j->has_plan)
+        status = plan_of(&plan, j->map, mesh, env);
+    mesh->plan = plan;
+    if (status == ICC_OK)
+        status = go_or_rebuild(&t, j, work, env);
+    if (status == ICC_OK && t.reached)
+        status = iccp_improve_moving(t.mesh, &t.limits, t.room, &work->improvement, env);
+    iccp_plane_keep_plan(map, plan, t.mesh);
+    iccp_newton_plan_release(plan);
+    if (status == ICC_OK && t.reached && t.mesh == &part->map)
+        status = iccp_moving_part_put_back(part, &map->pl, env);
+    *reached = t.reached;
+    return status;
+}
+
+/* Moves a map with features to another target. Only the faces that change are moved. Every state on
+ * the way is one-to-one, so the class is kept. */
 static icc_status move_features(iccp_mesh_map *map, const journey *j,
                                 const icc_improve_options *options, iccp_allowance *work,
                                 iccp_map_facts *info, const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds(), stretch = map->pl.stretch;
-    const iccp_mesh_limits limits = {iccp_planar_step(j->target, CELLS),
-                                     MANY + MANY_EACH * j->source->features->n_places};
-    bool reached = false;
-    double room = 0;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){3, 1}, env);
-    icc_status status = ICC_OK;
-    if (map->pl.corners.n_triangles < ENOUGH)
-        status = iccp_limit_edges(&map->pl, limits.longest_edge, &part[0]);
-    if (status == ICC_OK)
-        status = iccp_move_targets(&map->pl, j->target, &limits, PATIENCE, &work->search, &reached,
-                                   &room, &part[0]);
+    iccp_moving_part part;
+    iccp_env own[2];
+    iccp_split(own, 2, (const double[]){3, 1}, env);
+    icc_status status = iccp_moving_part_create(&part, &map->pl, j->old_target, j->target, &own[0]);
+    bool reached = status == ICC_OK && !part.is_whole && part.n_triangles == 0;
     if (status == ICC_OK && !reached)
-        status = rebuild(&map->pl, j, limits.longest_edge, &work->overlay, &reached, &part[0]);
-    if (status == ICC_OK && !reached)
-        status = iccp_move_targets(&map->pl, j->target, &limits, LAST_PATIENCE, &work->search,
-                                   &reached, &room, &part[0]);
-    if (status == ICC_OK && reached)
-        status = iccp_improve_moving(&map->pl, &limits, room, &work->improvement, &part[0]);
+        status = move_part(map, &part, j, work, &reached, &own[0]);
+    iccp_moving_part_free(&part);
     map->pl.stretch = stretch;
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
                          "features moved straight to their new places would meet or come too "
                          "close: go there another way, in several steps, or make a new map");
+    map->pl.plan = iccp_once_get(&map->plan);
     if (status == ICC_OK)
         status = iccp_plane_complete(map, options, &iccp_schedule_plain, &work->improvement, info,
-                                     &part[1]);
+                                     &own[1]);
+    map->pl.plan = NULL;
     return status;
-}
-
-static bool same_memory(const iccp_memory *a, const iccp_memory *b)
-{
-    return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
-}
-
-/* Finds the plan of Newton's method for the map's mesh. The maps that follow a map share it, and
- * the first of them makes it. *plan is NULL if the two maps use different allocators. */
-static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_env *env)
-{
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
-    iccp_newton_plan *fresh;
-    *plan = NULL;
-    if (!same_memory(&map->pl.memory, &env->memory))
-        return ICC_OK;
-    *plan = iccp_once_get(&map->plan);
-    if (*plan != NULL)
-        return ICC_OK;
-    const icc_status status = iccp_newton_plan_create(&fresh, &simplicial, env);
-    if (status != ICC_OK)
-        return status;
-    *plan = iccp_once_keep(&map->plan, fresh);
-    if (*plan != fresh)
-        iccp_newton_plan_release(fresh);
-    return ICC_OK;
 }
 
 /* Moves the boundary's images to the new target at once if that inverts no triangle, otherwise in
@@ -148,7 +207,7 @@ static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, con
 static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work *work,
                             bool *reached, iccp_map_facts *info, const iccp_env *env)
 {
-    const iccp_mesh_limits limits = {iccp_planar_step(target, CELLS), SIZE_MAX};
+    const iccp_mesh_limits limits = {iccp_planar_step(target, CELLS), SIZE_MAX, 0};
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(pl);
     const size_t n = 2 * pl->n_vertices;
     double room, *before = iccp_alloc(&env->memory, n, sizeof *before);
@@ -161,22 +220,26 @@ static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work 
     if (!*reached)
         memcpy(pl->images, before, n * sizeof *before);
     iccp_free(&env->memory, before);
-    return *reached
-               ? ICC_OK
-               : iccp_move_targets(pl, target, &limits, LAST_PATIENCE, work, reached, &room, env);
+    return *reached ? ICC_OK
+                    : iccp_move_targets(pl, NULL, target, &limits, LAST_PATIENCE, work, reached,
+                                        &room, env);
 }
 
 /* Moves the map of a cage to another target, and improves it. If the way is blocked, the result is
  * ICC_OK, and info->n_unrepaired is not 0. */
-static icc_status retarget_cage(iccp_mesh_map *map, const icc_domain *target,
+static icc_status retarget_cage(iccp_mesh_map *map, const journey *j,
                                 const icc_improve_options *options, iccp_allowance *work,
                                 iccp_map_facts *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     bool reached = false;
     iccp_env part[2];
+    iccp_newton_plan *plan = NULL;
     iccp_split(part, 2, (const double[]){1, 5}, env);
-    icc_status status = move_cage(&map->pl, target, &work->search, &reached, info, &part[0]);
+    icc_status status = j->has_plan ? plan_of(&plan, j->map, &map->pl, env) : ICC_OK;
+    map->pl.plan = plan;
+    if (status == ICC_OK)
+        status = move_cage(&map->pl, j->target, &work->search, &reached, info, &part[0]);
     info->seconds_repair = iccp_seconds() - begin;
     info->n_unrepaired = reached ? 0 : info->n_inverted;
     if (status == ICC_OK && reached)
@@ -184,6 +247,8 @@ static icc_status retarget_cage(iccp_mesh_map *map, const icc_domain *target,
     if (status == ICC_OK && reached)
         status = iccp_plane_complete(map, options, &iccp_schedule_plain, &work->improvement, info,
                                      &part[1]);
+    iccp_plane_keep_plan(map, plan, &map->pl);
+    iccp_newton_plan_release(plan);
     return status;
 }
 
@@ -196,26 +261,22 @@ icc_status iccp_mesh_map_retarget(iccp_mesh_map **out, const iccp_mesh_map *map,
     *out = NULL;
     if (next == NULL)
         return ICC_ERR_MEMORY;
-    iccp_newton_plan *plan = NULL;
-    icc_status status = iterations >= 0 ? plan_of(&plan, map, env) : ICC_OK;
-    if (status == ICC_OK)
-        status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
+    icc_status status = begin(&next->pl, &map->pl, source, old_target, target, &env->memory);
     if (status == ICC_OK) {
         const icc_improve_options options = {.iterations = iterations != 0 ? iterations
                                                            : source->features != NULL
                                                                ? FEATURE_ITERATIONS
                                                                : CAGE_ITERATIONS,
                                              .levels = -1};
+        const journey j = {map, source, old_target, target, iterations >= 0};
         iccp_allowance work = iccp_allow(source->n_facets);
         work.improvement = iccp_work_unlimited();
         work.overlay.left = work.relaxing;
         work.all = HUGE_VAL;
         status = source->features == NULL
-                     ? retarget_cage(next, target, &options, &work, info, env)
-                     : move_features(next, &(journey){map->isotopy, source, old_target, target},
-                                     &options, &work, info, env, err);
+                     ? retarget_cage(next, &j, &options, &work, info, env)
+                     : move_features(next, &j, &options, &work, info, env, err);
         next->work = iccp_spent(&work);
-        iccp_plane_keep_plan(next, plan);
     }
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = next;

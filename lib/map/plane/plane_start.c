@@ -193,7 +193,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     if (status == ICC_OK)
         status = iccp_plane_complete(map, &options, &iccp_schedule_plain,
                                      iccp_bound(&work.improvement, &work), info, &part[2]);
-    iccp_plane_keep_plan(map, plan);
+    iccp_plane_keep_plan(map, plan, &map->pl);
     iccp_newton_plan_release(plan);
     map->work = iccp_spent(&work);
     if (status == ICC_OK)

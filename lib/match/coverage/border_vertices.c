@@ -37,7 +37,7 @@ typedef struct task {
 
 /* Makes the outline of a border. The source's is moved to where the target's should be. */
 static icc_status outline_of(iccp_outline *outline, const iccp_layer_graph *graph,
-                             const iccp_border *border, const iccp_layer_affine *affine,
+                             const iccp_border *border, const iccp_plane_affine *affine,
                              const iccp_memory *memory)
 {
     const size_t n = border->n + (border->is_island ? 0 : 1);
@@ -48,7 +48,7 @@ static icc_status outline_of(iccp_outline *outline, const iccp_layer_graph *grap
         const double *const p = graph->layer->place + 2 * (size_t)graph->at[border->first + k];
         memcpy(points + 2 * k, p, 2 * sizeof *p);
         if (affine != NULL)
-            iccp_layer_move(affine, p, points + 2 * k);
+            iccp_plane_affine_move(affine, p, points + 2 * k);
     }
     const icc_status status =
         iccp_outline_create_points(outline, n, points, border->is_island, memory);

@@ -8,6 +8,7 @@
 #include "match/coverage/border_vertices.h"
 #include "match/coverage/coverage_features.h"
 #include "match/coverage/leave_out.h"
+#include "math/elementary.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -159,30 +160,70 @@ static icc_status find_borders(making *m, const iccp_memory *memory)
     return ICC_OK;
 }
 
-/* Describes the first difference, if there are any that are not to be left out. */
+/* The distance between the ends of a border, in the caller's coordinates. */
+static double distance_of_ends(const iccp_layer_graph *graph, const iccp_border *border)
+{
+    double end[2][2];
+    iccp_layer_given(graph->layer, graph->at[border->first], end[0]);
+    iccp_layer_given(graph->layer, graph->at[border->first + border->n], end[1]);
+    return iccp_hypot(end[1][0] - end[0][0], end[1][1] - end[0][1]);
+}
+
+/* Chooses the difference that says most: a region if there is one, else the border whose ends are
+ * nearest. Where it makes two nodes of one, all borders that end there differ, too. */
+static size_t choose(const making *m, double *distance)
+{
+    const icc_coverage_difference *const all = m->coverage->difference;
+    size_t best = 0, k = 0;
+    *distance = HUGE_VAL;
+    while (k < m->coverage->info.n_differences && all[k].kind == ICC_DIFFERENCE_REGION)
+        ++k;
+    for (int e = 0; e < 2 && all[0].kind != ICC_DIFFERENCE_REGION; ++e) {
+        const iccp_layer_graph *const graph = m->pairing.graph[e];
+        const uint32_t *const partner = e == 0 ? m->pairing.border : m->pairing.back;
+        for (size_t b = 0; b < graph->n_borders; ++b) {
+            if (partner[b] != UINT32_MAX)
+                continue;
+            const iccp_border *const border = &graph->border[b];
+            const double d = border->is_island ? HUGE_VAL : distance_of_ends(graph, border);
+            best = d < *distance ? k : best;
+            *distance = d < *distance ? d : *distance;
+            ++k;
+        }
+    }
+    return best;
+}
+
+/* Describes a difference, if there are any that are not to be left out. A border whose ends are
+ * welded to each other vanishes. */
 static icc_status refuse(const making *m, icc_error *err)
 {
     const size_t n = m->coverage->info.n_differences;
-    const icc_coverage_difference *const d = m->coverage->difference;
-    char more[64] = "";
+    char more[64] = "", remedy[96] = "leave it out";
+    double distance;
     if (n == 0 || m->options->unmatched == ICC_UNMATCHED_LEAVE_OUT)
         return ICC_OK;
+    const icc_coverage_difference *const d = &m->coverage->difference[choose(m, &distance)];
     const char *const layer = d->side == 1 ? "source" : "target";
     if (n > 1)
-        snprintf(more, sizeof more, " (and %zu more differences)", n - 1);
+        snprintf(more, sizeof more, " (and %zu more difference%s)", n - 1, n == 2 ? "" : "s");
+    if (d->kind == ICC_DIFFERENCE_BORDER)
+        snprintf(remedy, sizeof remedy, "leave it out, or weld its ends, which are %.6g apart",
+                 distance);
     if (d->kind == ICC_DIFFERENCE_REGION)
         return iccp_fail(err, ICC_ERR_TOPOLOGY,
-                         "region %" PRId64 ", near (%.6g, %.6g), is in the %s only%s", d->ids[0],
-                         d->place[0], d->place[1], layer, more);
+                         "region %" PRId64 ", near (%.6g, %.6g), is in the %s only%s: %s",
+                         d->ids[0], d->place[0], d->place[1], layer, more, remedy);
     if (d->n_ids == 1)
-        return iccp_fail(
-            err, ICC_ERR_TOPOLOGY, "%s of region %" PRId64 " near (%.6g, %.6g) is in the %s only%s",
-            d->kind == ICC_DIFFERENCE_ISLAND ? "the closed border" : "the outer border", d->ids[0],
-            d->place[0], d->place[1], layer, more);
+        return iccp_fail(err, ICC_ERR_TOPOLOGY,
+                         "%s of region %" PRId64 " near (%.6g, %.6g) is in the %s only%s: %s",
+                         d->kind == ICC_DIFFERENCE_ISLAND ? "the closed border"
+                                                          : "the outer border",
+                         d->ids[0], d->place[0], d->place[1], layer, more, remedy);
     return iccp_fail(err, ICC_ERR_TOPOLOGY,
                      "the border of regions %" PRId64 " and %" PRId64
-                     " near (%.6g, %.6g) is in the %s only%s",
-                     d->ids[0], d->ids[1], d->place[0], d->place[1], layer, more);
+                     " near (%.6g, %.6g) is in the %s only%s: %s",
+                     d->ids[0], d->ids[1], d->place[0], d->place[1], layer, more, remedy);
 }
 
 /* Cleans one layer, and finds its nodes, borders and rings. */
@@ -200,7 +241,7 @@ static icc_status clean(making *m, size_t e, const iccp_env *env, icc_error *err
     if (status == ICC_OK)
         status = iccp_layer_join(layer, env, err);
     if (status == ICC_OK && layer->n_sides == 0)
-        status = iccp_fail(err, ICC_ERR_TOPOLOGY, "no region has an area");
+        status = iccp_fail(err, ICC_ERR_TOPOLOGY, "no region has an area: is the weld too long?");
     if (status == ICC_OK)
         status = iccp_explain(err, iccp_layer_measure(layer, &parts[2]));
     if (status == ICC_OK)
@@ -309,7 +350,8 @@ static icc_status pair_layers(making *m, const iccp_env *env, icc_error *err)
         status = iccp_explain(err, iccp_kept_find(&m->kept, &m->pairing, m->rings, env));
     if (status == ICC_OK && m->kept.n_rings == 0)
         status = iccp_fail(err, ICC_ERR_TOPOLOGY,
-                           "nothing is left: no region has the same borders in both layers");
+                           "nothing is left: no region has the same borders in both layers; "
+                           "a longer weld may help");
     return status;
 }
 
@@ -324,7 +366,8 @@ static icc_status run(making *m, const iccp_env *env, icc_error *err)
     if (status == ICC_OK)
         status = refuse(m, err);
     if (status == ICC_OK && m->regions.n == 0)
-        status = iccp_fail(err, ICC_ERR_TOPOLOGY, "no region is in both layers");
+        status =
+            iccp_fail(err, ICC_ERR_TOPOLOGY, "no region is in both layers: do their ids agree?");
     for (size_t e = 0; e < 2 && status == ICC_OK; ++e) {
         status = clean(m, e, &parts[e], err);
         describe(&coverage->info, &m->layer[e], e);

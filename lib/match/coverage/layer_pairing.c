@@ -143,14 +143,14 @@ static icc_status list_borders(iccp_alikes *items, const iccp_layer_graph *graph
 }
 
 /* Moves spots of the source to where the target's should be. */
-static void move(iccp_alikes *items, const iccp_layer_affine *affine)
+static void move(iccp_alikes *items, const iccp_plane_affine *affine)
 {
     const double *const m = affine->matrix;
     const double scale = sqrt(fabs(m[0] * m[3] - m[1] * m[2]));
     for (size_t k = 0; k < items->n; ++k) {
         iccp_spot *const spot = &items->item[k].spot;
         const double at[2] = {spot->at[0], spot->at[1]};
-        iccp_layer_move(affine, at, spot->at);
+        iccp_plane_affine_move(affine, at, spot->at);
         spot->size *= scale;
     }
 }

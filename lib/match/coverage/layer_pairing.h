@@ -3,25 +3,14 @@
 #define ICCP_LAYER_PAIRING_H
 
 #include "match/coverage/layer_graph.h"
-
-/* y = matrix (x - from) + to, from the source's local coordinates to the target's. */
-typedef struct iccp_layer_affine {
-    double from[2], to[2], matrix[4];
-} iccp_layer_affine;
-
-static inline void iccp_layer_move(const iccp_layer_affine *affine, const double *x, double *y)
-{
-    const double d[2] = {x[0] - affine->from[0], x[1] - affine->from[1]};
-    for (int k = 0; k < 2; ++k)
-        y[k] = affine->matrix[2 * k] * d[0] + affine->matrix[2 * k + 1] * d[1] + affine->to[k];
-}
+#include "match/plane_affine.h"
 
 typedef struct iccp_layer_pairing {
     const iccp_layer_graph *graph[2]; /* borrowed */
     uint32_t *node;           /* of each place of the source: the target's node, or UINT32_MAX */
     uint32_t *border;         /* of each border of the source: the target's, or UINT32_MAX */
     uint32_t *back;           /* of each border of the target: the source's, or UINT32_MAX */
-    iccp_layer_affine affine; /* fits what is sure */
+    iccp_plane_affine affine; /* fits what is sure; local coordinates */
     size_t n_settled;
 } iccp_layer_pairing;
 

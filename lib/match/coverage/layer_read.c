@@ -33,14 +33,17 @@ icc_status iccp_layer_overlap(const iccp_layer *layer, uint32_t a, uint32_t b, c
     double at[2];
     iccp_frame_restore(&layer->frame, 2, place, at);
     if (a == ICCP_NO_REGION && b == ICCP_NO_REGION)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, "regions overlap at (%.9g, %.9g)", at[0], at[1]);
+        return iccp_fail(err, ICC_ERR_BOUNDARY,
+                         "regions overlap at (%.9g, %.9g): weld if they should only meet", at[0],
+                         at[1]);
     if (a == ICCP_NO_REGION)
         a = b;
     if (a == b || b == ICCP_NO_REGION)
         return iccp_fail(err, ICC_ERR_BOUNDARY,
                          "region %" PRId64 " overlaps itself at (%.9g, %.9g)", id[a], at[0], at[1]);
     return iccp_fail(err, ICC_ERR_BOUNDARY,
-                     "regions %" PRId64 " and %" PRId64 " overlap at (%.9g, %.9g)",
+                     "regions %" PRId64 " and %" PRId64
+                     " overlap at (%.9g, %.9g): weld if they should only meet",
                      id[a < b ? a : b], id[a < b ? b : a], at[0], at[1]);
 }
 

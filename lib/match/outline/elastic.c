@@ -20,6 +20,11 @@ enum {
  * noise: added to costs before they are compared, because small costs differ by sampling alone. */
 static const double upright = 0.05, far = 0.05 * N, noise = 0.05;
 
+double iccp_elastic_better(double cost, double other)
+{
+    return (other + noise) / (cost + noise);
+}
+
 typedef struct elastic {
     iccp_samples samples;
     iccp_elastic_candidate candidates[N_CANDIDATES];
@@ -201,7 +206,7 @@ static iccp_elastic_candidate *choose(elastic *e, iccp_elastic_report *report)
         if (c->score < report->second && distance(c->place, best->place) > far)
             report->second = c->score;
     }
-    report->sure = (report->second + noise) / (report->cost + noise);
+    report->sure = iccp_elastic_better(report->cost, report->second);
     report->turn = -iccp_atan2_turns(best->rotation[1], best->rotation[0]);
     return best;
 }
@@ -226,7 +231,7 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
         iccp_elastic_candidate *const spare = &e->candidates[best == e->candidates ? 1 : 0];
         iccp_elastic_candidate_bend(best, spare, &e->samples);
         read_knots(knots, best);
-        report->mirrored = (least + noise) / (mirrored + noise);
+        report->mirrored = iccp_elastic_better(mirrored, least);
     }
     release(e, &env->memory);
     return status;
@@ -262,8 +267,9 @@ icc_status iccp_elastic_bend(iccp_pairing_knots *knots, const iccp_outline *sour
     return ICC_OK;
 }
 
-icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *source,
-                             const iccp_outline *target, double start, const iccp_memory *memory)
+icc_status iccp_elastic_near(iccp_pairing_knots *knots, iccp_elastic_report *report,
+                             const iccp_outline *source, const iccp_outline *target, double start,
+                             const iccp_memory *memory)
 {
     elastic *const e = prepare(source, target, memory);
     if (e == NULL)
@@ -272,6 +278,7 @@ icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *sour
     for (int k = 0; k < N; ++k)
         c->place[k] = (float)(k + N * start);
     iccp_elastic_candidate_follow(c, &e->samples);
+    report->cost = c->path.cost;
     read_knots(knots, c);
     release(e, memory);
     return ICC_OK;

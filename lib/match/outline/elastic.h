@@ -23,16 +23,20 @@ typedef struct iccp_elastic_report {
     double mirrored; /* how many times better the mirror image fits, compared as for `sure`; or 0 */
 } iccp_elastic_report;
 
+/* How many times better one cost is than another. */
+double iccp_elastic_better(double cost, double other);
+
 /* Searches all starts. `knots` has room for 2 N + 1 pairs. */
 icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *report,
                                const iccp_outline *source, const iccp_outline *target, bool is_free,
                                const iccp_env *env);
 
 /* Searches close to a pairing by arc length. That pairing begins with the source's first vertex and
- * a share of the target. The source must already lie where the target should. `knots` has room for
- * 2 N + 1 pairs. */
-icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *source,
-                             const iccp_outline *target, double start, const iccp_memory *memory);
+ * a share of the target. The source must already lie where the target should. Reports the cost.
+ * `knots` has room for 2 N + 1 pairs. */
+icc_status iccp_elastic_near(iccp_pairing_knots *knots, iccp_elastic_report *report,
+                             const iccp_outline *source, const iccp_outline *target, double start,
+                             const iccp_memory *memory);
 
 /* Searches close to a pairing with n landmarks. If the target is bent, the result is taken and may
  * miss landmarks by a little. `knots` has room for 2 N + 1 pairs. */

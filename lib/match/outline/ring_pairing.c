@@ -10,6 +10,9 @@
 #include <math.h>
 #include <string.h>
 
+/* What is reported if no shapes are compared. */
+static const iccp_elastic_report none = {.cost = HUGE_VAL, .second = HUGE_VAL, .sure = HUGE_VAL};
+
 double iccp_least_sure(const icc_match_options *options)
 {
     return options->least_sure > 0 ? options->least_sure : iccp_clearly_better;
@@ -73,7 +76,7 @@ icc_status iccp_pair_rings(iccp_union_outline *common, iccp_elastic_report *repo
     iccp_split(parts, 2, (const double[]){4, 1}, env);
     iccp_pairing_knots knots = {.knot = reserve(n, &env->memory)};
     icc_status status = knots.knot != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    report->cost = report->second = report->sure = HUGE_VAL;
+    *report = none;
     if (status == ICC_OK && !is_elastic)
         find_by_arc(&knots, n, landmarks, source, target);
     else if (status == ICC_OK && n > 0)
@@ -92,19 +95,21 @@ icc_status iccp_pair_rings(iccp_union_outline *common, iccp_elastic_report *repo
     return status == ICC_ERR_AMBIGUOUS ? status : iccp_explain(err, status);
 }
 
-icc_status iccp_pair_moved(iccp_union_outline *common, const iccp_outline *source,
-                           const iccp_outline *target, size_t n, const double *landmarks,
-                           const icc_match_options *options, const iccp_env *env, icc_error *err)
+icc_status iccp_pair_moved(iccp_union_outline *common, iccp_elastic_report *report,
+                           const iccp_outline *source, const iccp_outline *target, size_t n,
+                           const double *landmarks, const icc_match_options *options,
+                           const iccp_env *env, icc_error *err)
 {
     const bool is_elastic = options->between != ICC_BETWEEN_ARC;
     iccp_pairing_knots knots = {.knot = reserve(n, &env->memory)};
-    iccp_elastic_report report;
     icc_status status = knots.knot != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    *report = none;
     if (status == ICC_OK)
         find_by_arc(&knots, n, landmarks, source, target);
     if (status == ICC_OK && is_elastic)
-        status = n > 0 ? iccp_elastic_between(&knots, &report, source, target, n, landmarks, env)
-                       : iccp_elastic_near(&knots, source, target, knots.knot[1], &env->memory);
+        status =
+            n > 0 ? iccp_elastic_between(&knots, report, source, target, n, landmarks, env)
+                  : iccp_elastic_near(&knots, report, source, target, knots.knot[1], &env->memory);
     if (status == ICC_OK)
         status = finish(common, &knots, is_elastic, source, target, n, landmarks, options, env);
     iccp_free(&env->memory, knots.knot);

@@ -21,9 +21,10 @@ icc_status iccp_pair_rings(iccp_union_outline *common, iccp_elastic_report *repo
                            const iccp_env *env, icc_error *err);
 
 /* Pairs outlines after the source has been moved to where the target should be. Without landmarks,
- * close places are paired. */
-icc_status iccp_pair_moved(iccp_union_outline *common, const iccp_outline *source,
-                           const iccp_outline *target, size_t n, const double *landmarks,
-                           const icc_match_options *options, const iccp_env *env, icc_error *err);
+ * close places are paired. Reports the cost, which is HUGE_VAL by arc length. */
+icc_status iccp_pair_moved(iccp_union_outline *common, iccp_elastic_report *report,
+                           const iccp_outline *source, const iccp_outline *target, size_t n,
+                           const double *landmarks, const icc_match_options *options,
+                           const iccp_env *env, icc_error *err);
 
 #endif

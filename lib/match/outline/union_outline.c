@@ -54,13 +54,27 @@ static icc_status reserve(iccp_merge_order *w, size_t n_knots, size_t n_landmark
     return ICC_OK;
 }
 
-/* Cuts the pairing and the outlines open in the middle of the pairing's first piece. */
+/* Chooses where to cut along the source: in the pairing's first piece, from `from` to `to`. Of the
+ * edge at the middle of the piece, takes the middle of what lies in the piece. A vertex at the cut
+ * could end up at the other end than its partner. */
+static double find_cut(const iccp_outline *source, double from, double to)
+{
+    const double middle = (from + to) / 2;
+    double along;
+    const size_t edge = iccp_outline_edge(source, middle, &along);
+    const double length = source->share[edge + 1] - source->share[edge];
+    const double begin = middle - along * length, end = begin + length;
+    return ((begin > from ? begin : from) + (end < to ? end : to)) / 2;
+}
+
+/* Cuts the pairing and the outlines open in the pairing's first piece. */
 static void open(iccp_merge_order *w, const iccp_pairing_knots *knots)
 {
     const double *const k = knots->knot;
     const double next[2] = {knots->n > 1 ? k[2] : k[0] + 1, knots->n > 1 ? k[3] : k[1] + 1};
+    w->cut[0] = find_cut(w->outline[0], k[0], next[0]);
+    w->cut[1] = k[1] + (w->cut[0] - k[0]) / (next[0] - k[0]) * (next[1] - k[1]);
     for (size_t e = 0; e < 2; ++e) {
-        w->cut[e] = (k[e] + next[e]) / 2;
         w->knot[e] = w->cut[e];
         for (size_t m = 1; m < knots->n; ++m)
             w->knot[2 * m + e] = k[2 * m + e];

@@ -58,15 +58,15 @@ static bool carry_to(const icc_map *map, const plan *to, double work)
     const iccp_env env = default_env();
     icc_domain *target = plan_domain(to);
     iccp_plmap copy;
-    const iccp_mesh_limits limits = {iccp_planar_step(target, 15), 1000};
+    const iccp_mesh_limits limits = {iccp_planar_step(target, 15), 1000, 0};
     iccp_work steps = {.left = work};
     bool reached, kept = false;
     double room;
     ck_assert_int_eq(iccp_plmap_copy(&copy, &iccp_plane_of(map)->pl, &env.memory), ICC_OK);
     if (work > 0)
         ck_assert_int_eq(iccp_limit_edges(&copy, limits.longest_edge, &env), ICC_OK);
-    ck_assert_int_eq(iccp_move_targets(&copy, target, &limits, 1, &steps, &reached, &room, &env),
-                     ICC_OK);
+    ck_assert_int_eq(
+        iccp_move_targets(&copy, NULL, target, &limits, 1, &steps, &reached, &room, &env), ICC_OK);
     check_there(&copy, target, reached);
     ck_assert(steps.left >= 0 || steps.spent > 0);
     ck_assert(room >= 0);

@@ -4,6 +4,8 @@
 #include "../../saved.h"
 #include "../../suite.h"
 #include "domain/network.h"
+#include "map/compatible/coarsen.h"
+#include "map/compatible/triangle_quality.h"
 #include "map/map.h"
 #include "map/plane/plane_kind.h"
 
@@ -211,6 +213,36 @@ START_TEST(mirrored_maps)
 }
 END_TEST
 
+/* A refinement that gains less than 1 % by cutting a fifth of the triangles is in vain. So hardly
+ * any vertex can be merged that is worth less than its part of that. */
+START_TEST(worthless_vertices_are_gone)
+{
+    plan source, target;
+    MAKE[_i](&source);
+    target = bent(&source, 0.6);
+    icc_domain *d[2] = {plan_domain(&source), plan_domain(&target)};
+    icc_map *map = map_between(d[0], d[1], 0);
+    const icc_env quiet = {.size = sizeof quiet};
+    iccp_env env;
+    iccp_plmap pl;
+    size_t n_gone;
+    ck_assert_int_eq(iccp_env_read(&env, &quiet, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_plmap_copy(&pl, &iccp_plane_of(map)->pl, &env.memory), ICC_OK);
+    iccp_quality all = iccp_no_quality();
+    const uint32_t *v = pl.corners.vertex;
+    for (size_t t = 0; t < pl.corners.n_triangles; ++t)
+        iccp_quality_add(&all, &pl, v[3 * t], v[3 * t + 1], v[3 * t + 2]);
+    const double worth = 0.01 * all.energy / (0.2 * (double)pl.corners.n_triangles);
+    const size_t n = pl.n_vertices;
+    ck_assert_int_eq(iccp_coarsen_worthless(&pl, worth, &n_gone, &env), ICC_OK);
+    ck_assert_uint_le(100 * n_gone, 2 * n);
+    iccp_plmap_free(&pl);
+    icc_map_free(map);
+    icc_domain_free(d[0]);
+    icc_domain_free(d[1]);
+}
+END_TEST
+
 /* The certificate of a whole map notices what no triangle shows. */
 START_TEST(certificates)
 {
@@ -247,6 +279,7 @@ int main(void)
     tcase_add_loop_test(tests, maps, 0, N_NETWORKS);
     tcase_add_loop_test(tests, maps_that_go_on, 0, N_NETWORKS);
     tcase_add_loop_test(tests, mirrored_maps, 0, N_NETWORKS);
+    tcase_add_loop_test(tests, worthless_vertices_are_gone, 0, N_NETWORKS);
     tcase_add_loop_test(tests, certificates, 0, N_NETWORKS);
     suite_add_tcase(suite, tests);
     return suite_run(suite);

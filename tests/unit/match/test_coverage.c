@@ -159,8 +159,9 @@ START_TEST(differences_are_named_or_left_out)
     b = a;
     b.ids = seven_nine;
     ck_assert_int_eq(icc_coverage_create(&coverage, &a, &b, NULL, NULL, &err), ICC_ERR_TOPOLOGY);
-    ck_assert_str_eq(err.message,
-                     "region 8, near (1, 0), is in the source only (and 1 more differences)");
+    ck_assert_str_eq(
+        err.message,
+        "region 8, near (1, 0), is in the source only (and 1 more difference): leave it out");
     const icc_coverage_options options = {.size = sizeof options,
                                           .unmatched = ICC_UNMATCHED_LEAVE_OUT};
     ck_assert_int_eq(icc_coverage_create(&coverage, &a, &b, &options, NULL, &err), ICC_OK);
@@ -207,7 +208,8 @@ START_TEST(regions_inside_others_are_named)
         const uint8_t *holes;
         size_t n_rings;
         const char *message;
-    } cases[] = {{nested, seven_eight, NULL, 2, "source: regions 7 and 8 overlap at (3, 3)"},
+    } cases[] = {{nested, seven_eight, NULL, 2,
+                  "source: regions 7 and 8 overlap at (3, 3): weld if they should only meet"},
                  {nested, twice, NULL, 2, "source: region 7 overlaps itself at (3, 3)"},
                  {nested, twice, second, 2, NULL},
                  {apart, twice, NULL, 2, NULL},
@@ -385,6 +387,41 @@ START_TEST(islands_at_mirrored_places_are_paired_by_number)
 }
 END_TEST
 
+/* Vertices opposite to where a pairing begins are common ones, too. */
+START_TEST(equal_rings_are_paired_vertex_by_vertex)
+{
+    enum { RINGS = 5, EACH = 6, OUTER = 8, ALL = OUTER + (RINGS - 1) * EACH };
+    double vertices[2 * ALL];
+    size_t first[RINGS + 1] = {0};
+    const int64_t ids[RINGS] = {1, 1, 1, 1, 1};
+    const uint8_t holes[RINGS] = {0, 1, 1, 1, 1};
+    for (size_t r = 0; r < RINGS; ++r) {
+        const size_t n = r == 0 ? OUTER : EACH;
+        const double x = r == 0 ? 4.5 : 3 * (double)((r - 1) / 2);
+        const double y = r == 0 ? 4.5 : 3 * (double)((r - 1) % 2), radius = r == 0 ? 10.8 : 1;
+        first[r + 1] = first[r] + n;
+        for (size_t k = 0; k < n; ++k) {
+            const double turn = (double)k * 2 * 3.141592653589793 / (double)n;
+            vertices[2 * (first[r] + k)] = x + radius * cos(turn);
+            vertices[2 * (first[r] + k) + 1] = y + radius * sin(turn);
+        }
+    }
+    const icc_layer layer = {.size = sizeof layer,
+                             .n_rings = RINGS,
+                             .first = first,
+                             .vertices = vertices,
+                             .ids = ids,
+                             .holes = holes};
+    const icc_coverage_options options = {.size = sizeof options, .between = ICC_BETWEEN_ARC};
+    icc_coverage *coverage;
+    ck_assert_int_eq(icc_coverage_create(&coverage, &layer, &layer, &options, NULL, NULL), ICC_OK);
+    const icc_coverage_info info = info_of(coverage);
+    ck_assert_uint_eq(info.n_vertices, ALL);
+    ck_assert_uint_eq(info.n_joined, ALL);
+    icc_coverage_free(coverage);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("coverage");
@@ -398,6 +435,7 @@ int main(void)
     tcase_add_test(tests, welding_makes_no_chains);
     tcase_add_test(tests, wrong_arguments_are_refused);
     tcase_add_test(tests, islands_are_paired_by_place);
+    tcase_add_test(tests, equal_rings_are_paired_vertex_by_vertex);
     tcase_add_test(tests, islands_at_mirrored_places_are_paired_by_number);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);

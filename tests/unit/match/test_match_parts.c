@@ -179,47 +179,131 @@ START_TEST(pairs_glyphs)
 }
 END_TEST
 
-/* A disc and a bar, all turned by 17 degrees. The bar tells how, and the disc follows. */
+enum { ROUND = 32 };
+
+/* Takes n points by a matrix. */
+static void take(size_t n, const double *matrix, const double *from, double *to)
+{
+    for (size_t k = 0; k < 2 * n; ++k)
+        to[k] =
+            matrix[2 * (k % 2)] * from[k - k % 2] + matrix[2 * (k % 2) + 1] * from[k - k % 2 + 1];
+}
+
+/* Makes a disc of n_disc vertices above another shape, both taken by a matrix. */
+static icc_domain *disc_of(size_t n_disc, size_t n, const double *shape, const double *matrix)
+{
+    double disc[4 * ROUND], xy[2][4 * ROUND];
+    for (size_t k = 0; k < n_disc; ++k) {
+        const double t = 6.283185307179586 * (double)k / (double)n_disc;
+        disc[2 * k] = .7 * cos(t);
+        disc[2 * k + 1] = 2 + .7 * sin(t);
+    }
+    take(n_disc, matrix, disc, xy[0]);
+    take(n, matrix, shape, xy[1]);
+    const icc_feature features[] = {
+        {.size = sizeof *features,
+         .kind = ICC_FEATURE_REGION,
+         .n_vertices = n_disc,
+         .vertices = xy[0]},
+        {.size = sizeof *features, .kind = ICC_FEATURE_REGION, .n_vertices = n, .vertices = xy[1]}};
+    return domain_of(0, NULL, 2, features);
+}
+
+static icc_domain *disc_over(size_t n, const double *shape, const double *matrix)
+{
+    return disc_of(ROUND, n, shape, matrix);
+}
+
+static const double same[] = {1, 0, 0, 1};
+static const double turned[] = {.955336489125606, -.29552020666134, .29552020666134,
+                                .955336489125606}; /* by 17.2 degrees */
+static const double bar[] = {-3, -2, 3, -2, 3, -1, -3, -1.5};
+
+/* The bar tells how all is turned, and the disc follows. */
 START_TEST(turns_discs_with_the_rest)
 {
-    enum { N = 32 };
-    double disc[2][2 * N];
-    double bar[2][8] = {{-3, -2, 3, -2, 3, -1, -3, -1.5}};
-    const double c = cos(.3), s = sin(.3);
-    for (size_t k = 0; k < N; ++k) {
-        const double t = 6.283185307179586 * (double)k / N;
-        disc[0][2 * k] = .7 * cos(t);
-        disc[0][2 * k + 1] = 2 + .7 * sin(t);
-    }
-    for (size_t k = 0; k < N; ++k) {
-        disc[1][2 * k] = c * disc[0][2 * k] - s * disc[0][2 * k + 1];
-        disc[1][2 * k + 1] = s * disc[0][2 * k] + c * disc[0][2 * k + 1];
-    }
-    for (size_t k = 0; k < 4; ++k) {
-        bar[1][2 * k] = c * bar[0][2 * k] - s * bar[0][2 * k + 1];
-        bar[1][2 * k + 1] = s * bar[0][2 * k] + c * bar[0][2 * k + 1];
-    }
-    icc_domain *domains[2];
-    for (int e = 0; e < 2; ++e) {
-        const icc_feature features[] = {{.size = sizeof(icc_feature),
-                                         .kind = ICC_FEATURE_REGION,
-                                         .n_vertices = N,
-                                         .vertices = disc[e]},
-                                        {.size = sizeof(icc_feature),
-                                         .kind = ICC_FEATURE_REGION,
-                                         .n_vertices = 4,
-                                         .vertices = bar[e]}};
-        domains[e] = domain_of(0, NULL, 2, features);
-    }
     icc_match *match;
     icc_error err;
     ring_pair rings[2];
-    const icc_status status = match_of(&match, domains[0], domains[1], 0, NULL, &err);
+    const icc_status status =
+        match_of(&match, disc_over(4, bar, same), disc_over(4, bar, turned), 0, NULL, &err);
     ck_assert_msg(status == ICC_OK, "%s", err.message);
     ck_assert_uint_eq(describe(rings, match), 2);
     for (int k = 0; k < 2; ++k)
         ck_assert_double_lt(fabs(rings[k].turn - 17.2), 1);
     icc_match_free(match);
+}
+END_TEST
+
+/* The bar also tells how all is stretched and sheared, and all places of the disc go with it, also
+ * if the disc has other vertices. */
+START_TEST(stretches_discs_with_the_rest)
+{
+    static const double oblique[] = {1.3, .7, 0, .8};
+    static const size_t n_disc[] = {ROUND, 45, 2 * ROUND};
+    for (size_t d = 0; d < sizeof n_disc / sizeof *n_disc; ++d) {
+        icc_match *match;
+        icc_error err;
+        ring_pair rings[2];
+        double xy[2][2 * MOST], to[2];
+        const icc_status status = match_of(&match, disc_over(4, bar, same),
+                                           disc_of(n_disc[d], 4, bar, oblique), 0, NULL, &err);
+        ck_assert_msg(status == ICC_OK, "%s", err.message);
+        ck_assert_uint_eq(describe(rings, match), 2);
+        ck_assert_int_eq(icc_domain_get_boundary(icc_match_source(match), xy[0], NULL), ICC_OK);
+        ck_assert_int_eq(icc_domain_get_boundary(icc_match_target(match), xy[1], NULL), ICC_OK);
+        for (size_t k = 0; k < rings[0].info.n_vertices; ++k) {
+            const size_t v = rings[0].info.first_vertex + k;
+            take(1, oblique, xy[0] + 2 * v, to);
+            ck_assert_double_lt(hypot(xy[1][2 * v] - to[0], xy[1][2 * v + 1] - to[1]), .1);
+        }
+        icc_match_free(match);
+    }
+}
+END_TEST
+
+/* Nothing but the whole tells how two discs lie. */
+START_TEST(describes_what_the_whole_has_placed)
+{
+    icc_match *match;
+    icc_error err;
+    double low[2 * ROUND];
+    icc_match_info info = {.size = sizeof info};
+    for (size_t k = 0; k < ROUND; ++k) {
+        const double t = 6.283185307179586 * (double)k / ROUND;
+        low[2 * k] = cos(t);
+        low[2 * k + 1] = -1 + sin(t);
+    }
+    const icc_status status =
+        match_of(&match, disc_over(ROUND, low, same), disc_over(ROUND, low, turned), 0, NULL, &err);
+    ck_assert_msg(status == ICC_OK, "%s", err.message);
+    ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+    ck_assert_double_lt(fabs(info.turn - 17.2), .5);
+    ck_assert(info.cost >= 0 && info.cost < .1);
+    ck_assert(isinf(info.second) && isinf(info.sure) && info.mirrored == 0);
+    ck_assert_uint_eq(info.n_joined, 2 * ROUND);
+    icc_match_free(match);
+}
+END_TEST
+
+/* Parts are paired side by side, and the bits do not tell. */
+START_TEST(threads_change_nothing)
+{
+    static uint8_t bytes[2][1 << 16];
+    size_t n[2];
+    for (int k = 0; k < 2; ++k) {
+        const icc_env env = {.size = sizeof env, .threads = 1 + 2 * k};
+        icc_domain *const domain[2] = {disc_over(4, bar, same), disc_over(4, bar, turned)};
+        icc_match *match;
+        ck_assert_int_eq(icc_match_create(&match, domain[0], domain[1], 0, NULL, NULL, &env, NULL),
+                         ICC_OK);
+        ck_assert_int_eq(icc_match_save(match, sizeof bytes[k], bytes[k], &n[k]), ICC_OK);
+        icc_match_free(match);
+        icc_domain_free(domain[0]);
+        icc_domain_free(domain[1]);
+    }
+    ck_assert_uint_eq(n[0], n[1]);
+    ck_assert_mem_eq(bytes[0], bytes[1], n[0]);
 }
 END_TEST
 
@@ -339,6 +423,9 @@ int main(void)
     TCase *tests = tcase_create("match_parts");
     tcase_add_test(tests, pairs_glyphs);
     tcase_add_test(tests, turns_discs_with_the_rest);
+    tcase_add_test(tests, stretches_discs_with_the_rest);
+    tcase_add_test(tests, describes_what_the_whole_has_placed);
+    tcase_add_test(tests, threads_change_nothing);
     tcase_add_test(tests, refuses_what_could_be_exchanged);
     tcase_add_test(tests, names_what_differs);
     tcase_add_test(tests, keeps_islands_and_contours);

@@ -864,10 +864,11 @@ pub struct icc_match_info {
     /// common vertices that are vertices of both given domains
     pub n_joined: usize,
     /// cost of the outlines' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length and in space. Of
-    /// several parts: `cost` to `turn` and `mirrored` are about the one whose pairing by shape is least sure
+    /// several parts: `cost` to `turn` and `mirrored` are about the one whose pairing by shape is least sure.
+    /// If the whole has placed all parts, they are about the one that costs most
     pub cost: f64,
     /// cost of the best pairing that differs from this one by more than 5 % of the perimeter. HUGE_VAL if
-    /// none was found or if there were landmarks
+    /// none was found, if there were landmarks, or if the whole has placed all parts
     pub second: f64,
     /// (second + 0.05) / (cost + 0.05): confidence in the pairing. 1 means that another pairing is as good.
     /// It is a comparison, not a probability
@@ -922,6 +923,19 @@ pub const ICC_MAP_CURVES: i32 = 1;
 /// is not checked.
 pub const ICC_MAP_MESH: i32 = 2;
 
+// Whether vertices of features may slide: `icc_map_options.slide`. A *chain* is a row of edges of rings and
+// lines between two places where more or fewer than two edges meet, a line ends, or a point lies. A closed
+// chain begins at one of its vertices. Between its ends, the vertices of a chain that slides need not go to
+// their partners. The chain as a whole goes exactly to its partner, edge by edge and in order, and libicc
+// chooses how so that the energy is low. That suits interfaces of materials and borders whose vertices mean
+// nothing by themselves. The map is never worse than without sliding.
+/// vertex i goes to vertex i
+pub const ICC_SLIDE_NONE: i32 = 0;
+/// chains inside the domain slide
+pub const ICC_SLIDE_INSIDE: i32 = 1;
+/// chains of the boundary slide as well
+pub const ICC_SLIDE_ALL: i32 = 2;
+
 /// A path between two vertices of a domain with features, and its path in the target. Ties tell a map on
 /// which side one feature passes another. The map takes the first path to one that can be moved to the second
 /// with its ends held and without crossing a feature.
@@ -971,6 +985,11 @@ pub struct icc_map_options {
     /// with features: paths that join all pieces of each part to a tree. They lie inside both domains and do
     /// not cross. NULL: libicc chooses the way that looks least twisted
     pub ties: *const icc_tie,
+    /// with features: `ICC_SLIDE_*`, whether vertices may slide along lines and borders. The map then needs
+    /// improvement, so `iterations` must not be -1. Ends of ties stay. Several maps are made in turn, which
+    /// may take 5 to 15 times as long. Domains without features and `icc_map_create_from_charts()` refuse to
+    /// slide with `ICC_ERR_UNSUPPORTED`
+    pub slide: i32,
 }
 sized!(icc_map_options);
 
@@ -1017,6 +1036,8 @@ pub struct icc_map_info {
     /// length of the ties in the target, divided by that of the straight lines between their ends. The map is
     /// twisted if it is much more than 1
     pub detour: f64,
+    /// with features: places with a given vertex that does not go to its partner, see `icc_map_options.slide`
+    pub n_slid: usize,
 }
 sized!(icc_map_info);
 
@@ -1961,7 +1982,8 @@ extern "C" {
     /// hole. Both domains must have as many. Parts are paired by their places in the bounding box of the
     /// whole, by the roots of their shares of the area, and by twice their numbers of holes, at the least sum
     /// of squares. Then outlines are paired part by part. A part whose shape is ambiguous, such as the round
-    /// dot of an i, is turned as the whole is turned. The whole should lie upright in both domains, or
+    /// dot of an i, is placed by the affine map that fits the other outlines and its own centre best. So is
+    /// any other part that then fits clearly better. The whole should lie upright in both domains, or
     /// landmarks should tell which parts belong together.
     ///
     /// *Features.* Each hole, line and point is paired with one of its kind in the partner of its part. The
@@ -2017,9 +2039,9 @@ extern "C" {
     ///   vertices
     /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     ///
-    /// Cost: in 2-D some tenths of a second, plus O(m^3) at worst for m features of a kind; in space about 1
-    /// s for 4,700 vertices. Deterministic. The map between the two new domains takes longer to make than one
-    /// between outlines that correspond.
+    /// Cost: in 2-D some tenths of a second for each part, and parts are paired in parallel. Plus O(m^3) at
+    /// worst for m features of a kind. In space about 1 s for 4,700 vertices. Deterministic. The map between
+    /// the two new domains takes longer to make than one between outlines that correspond.
     pub fn icc_match_create(
         out: *mut *mut icc_match,
         source: *const icc_domain,
@@ -2233,10 +2255,16 @@ extern "C" {
     /// way.
     ///
     /// Features move straight to their new places. On the way they pass one another on the same sides as
-    /// before (`icc_map_info.class_kept`). The mesh changes as needed, and the first frame may refine it,
+    /// before (`icc_map_info.class_kept`). Vertices that have slid (`icc_map_options.slide`) keep the edge
+    /// and the share of it to which they go. The mesh changes as needed, and the first frame may refine it,
     /// also if `iterations` is -1. If features would meet on the way, the call fails with
     /// `ICC_ERR_CERTIFICATE`; take another way, in several calls. If the target has a very different size or
     /// is far away, the features first move along with the whole shape.
+    ///
+    /// With `iterations` 0 or -1, only faces change that have a vertex with a new place on their boundaries:
+    /// parts of the domain between lines. Everything else keeps its places exactly. All faces change if the
+    /// way is blocked, so that the map is made anew, or if the target's box shrinks or grows so far that
+    /// coordinates are scaled anew.
     ///
     /// In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew by
     /// `icc_map_create()`, which fills a target without a mesh; `icc_env.log` then says so. There is no
@@ -2361,7 +2389,9 @@ extern "C" {
     /// - `source` (out): 2 * n_source coordinates of bends, or NULL
     /// - `target` (out): 2 * n_target coordinates of bends, or NULL
     ///
-    /// Returns `ICC_OK`, or `ICC_ERR_ARGUMENT` if `map` or `info` is NULL or there is no such tie
+    /// Returns `ICC_OK`, or `ICC_ERR_ARGUMENT` if `map` or `info` is NULL or there is no such tie. Also
+    /// `ICC_ERR_UNSUPPORTED` if an end of the tie has slid (`icc_map_options.slide`), so that it is a vertex
+    /// of one domain only
     pub fn icc_map_get_tie(
         map: *const icc_map,
         tie: usize,

@@ -74,7 +74,7 @@ pub use error::{Error, Item, Result, Side, Status};
 pub use fit::{Constraint, Fit, FitInfo, FitModel, FitOptions, NearestReport};
 pub use map::{
     Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions, MapReport,
-    OwnedTie, Tie,
+    OwnedTie, Slide, Tie,
 };
 pub use matching::{Between, Match, MatchInfo, MatchOptions, Turning};
 pub use object::Borrowed;

@@ -43,6 +43,16 @@ pub enum MapKind {
     Mesh = sys::ICC_MAP_MESH,
 }
 
+/// Which vertices of features may slide: [`MapOptions::slide`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Slide {
+    /// those of lines and borders inside the domain
+    Inside = sys::ICC_SLIDE_INSIDE,
+    /// those of the boundary as well
+    All = sys::ICC_SLIDE_ALL,
+}
+
 /// Options of [`Map::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MapOptions<'a> {
@@ -56,6 +66,9 @@ pub struct MapOptions<'a> {
     pub target_maximum: Option<&'a [f64]>,
     /// with features: in each part of the domain, one less than it has pieces; or none
     pub ties: &'a [Tie<'a>],
+    /// with features: vertices slide along lines and borders if that distorts the map less. Ends, and places where
+    /// three or more edges meet, stay partners
+    pub slide: Option<Slide>,
 }
 
 /// A path between two vertices of a domain with features, and its path in the target. It tells on which side features
@@ -111,6 +124,7 @@ impl MapOptions<'_> {
             iterations: self.iterations,
             chart,
             target_maximum: pointer(self.target_maximum),
+            slide: self.slide.map_or(sys::ICC_SLIDE_NONE, |slide| slide as i32),
             ..Default::default()
         }
     }
@@ -260,21 +274,25 @@ impl Map {
     }
 
     /// The ties of the map, which tell on which side features pass one another. Passed to [`MapOptions`] they make a
-    /// map that can be moved to this one while it stays one-to-one. Without features there are none.
+    /// map that can be moved to this one while it stays one-to-one. Without features there are none. Ties whose ends
+    /// have slid ([`MapOptions::slide`]) are left out.
     pub fn ties(&self) -> Vec<OwnedTie> {
-        (0..self.info().n_ties).map(|tie| self.tie(tie)).collect()
+        (0..self.info().n_ties).filter_map(|tie| self.tie(tie)).collect()
     }
 
-    fn tie(&self, tie: usize) -> OwnedTie {
+    fn tie(&self, tie: usize) -> Option<OwnedTie> {
         let (mut info, nothing) = (sys::icc_tie_info::default(), std::ptr::null_mut());
-        // SAFETY: `size` is set, and there is such a tie. It cannot fail.
-        unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, nothing, nothing) };
+        // SAFETY: `size` is set, and there is such a tie.
+        let status = unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, nothing, nothing) };
+        if status != sys::ICC_OK {
+            return None;
+        }
         let (mut source, mut target) = (vec![0.0; 2 * info.n_source], vec![0.0; 2 * info.n_target]);
         // SAFETY: there is room for all bends.
         unsafe {
             sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, source.as_mut_ptr(), target.as_mut_ptr())
         };
-        OwnedTie { vertices: info.vertex, source, target }
+        Some(OwnedTie { vertices: info.vertex, source, target })
     }
 
     /// The dimension.

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "map/compatible/coarsen.h"
 #include "map/compatible/flips.h"
+#include "map/compatible/triangle_quality.h"
 
 #include "../../../faulty.h"
 #include "../../../plmaps.h"
@@ -69,6 +70,39 @@ START_TEST(coarse_maps_are_certified)
             iccp_plmap_free(&before);
             iccp_plmap_free(&again);
         }
+}
+END_TEST
+
+static iccp_quality sum_of(const iccp_plmap *map)
+{
+    const uint32_t *v = map->corners.vertex;
+    iccp_quality all = iccp_no_quality();
+    for (size_t t = 0; t < map->corners.n_triangles; ++t)
+        iccp_quality_add(&all, map, v[3 * t], v[3 * t + 1], v[3 * t + 2]);
+    return all;
+}
+
+/* No merge costs more than the vertex is worth. */
+START_TEST(worthless_vertices_merge)
+{
+    const iccp_env env = default_env();
+    for (int k = 0; k < N_SHAPES; ++k) {
+        size_t most = 0;
+        for (double worth = 1e-5; worth < 1; worth *= 10) {
+            iccp_plmap map = shaken(k, 10), before;
+            size_t n_gone;
+            ck_assert_int_eq(iccp_plmap_copy(&before, &map, &env.memory), ICC_OK);
+            ck_assert_int_eq(iccp_coarsen_worthless(&map, worth, &n_gone, &env), ICC_OK);
+            check_certified(&map);
+            check_vertices(&map, &before);
+            ck_assert_double_le(sum_of(&map).energy,
+                                sum_of(&before).energy + worth * ((double)n_gone + 1e-6));
+            most = n_gone > most ? n_gone : most;
+            iccp_plmap_free(&map);
+            iccp_plmap_free(&before);
+        }
+        ck_assert_uint_gt(most, 0);
+    }
 }
 END_TEST
 
@@ -175,6 +209,7 @@ int main(void)
     Suite *suite = suite_create("coarsening");
     TCase *tests = tcase_create("all");
     tcase_add_test(tests, coarse_maps_are_certified);
+    tcase_add_test(tests, worthless_vertices_merge);
     tcase_add_test(tests, the_identity_becomes_coarse);
     tcase_add_test(tests, hubs_stay);
     tcase_add_test(tests, flips_lower_the_energy);
