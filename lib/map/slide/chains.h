@@ -19,7 +19,7 @@
  *
  * Ways
  * - knots.h makes slides and reads and writes them, added_vertices.h makes the domains,
- *   slide_step.h proposes a better slide from a map.
+ *   slide_step.h proposes a better slide from a map, with merge_corners.h.
  * - sliding.c asks for proposals and makes the maps. It keeps the best of them.
  *
  * Begin with knots.h. */
