@@ -773,7 +773,8 @@ typedef struct icc_tie {
  *  their partners. If the chain slides, its other vertices need not. The chain as a whole still
  *  goes exactly to its partner, edge by edge and in order. libicc chooses where vertices go, so
  *  that the energy is low. That suits interfaces of materials and borders whose vertices mean
- *  nothing by themselves. The energy is never higher than without sliding. */
+ *  nothing by themselves. Circles around points do not slide. The energy is never higher than
+ *  without sliding. */
 enum {
     ICC_SLIDE_NONE = 0,   /**< vertex i goes to vertex i */
     ICC_SLIDE_INSIDE = 1, /**< chains inside the domain slide */

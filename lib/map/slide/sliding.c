@@ -14,6 +14,7 @@
 #include "map/slide/slide_step.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The most rounds. On letters with bars whose outlines slide, the last of them still gain a
  * little. */
@@ -119,15 +120,21 @@ static icc_status take_rounds(sliding *s, const iccp_env *env)
     return status;
 }
 
-/* Holds the ends of ties. */
+/* Holds the ends of ties, and the circles around points, which do not turn. */
 static icc_status hold(sliding *s, const icc_domain *source, const iccp_memory *memory)
 {
     s->is_held = iccp_alloc_zero(memory, source->n_vertices, 1);
-    for (size_t i = 0; s->is_held != NULL && s->options->ties != NULL && i < s->options->n_ties;
-         ++i)
+    if (s->is_held == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; s->options->ties != NULL && i < s->options->n_ties; ++i)
         for (int end = 0; end < 2; ++end)
             s->is_held[s->options->ties[i].vertex[end]] = 1;
-    return s->is_held != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t f = 0; f < source->features->n; ++f) {
+        const iccp_feature *feature = &source->features->item[f];
+        if (feature->rim_of != UINT32_MAX)
+            memset(s->is_held + feature->first, 1, feature->n);
+    }
+    return ICC_OK;
 }
 
 icc_status iccp_map_create_sliding(icc_map **out, const icc_domain *source,

@@ -907,8 +907,8 @@ pub const ICC_MAP_MESH: i32 = 2;
 // chain begins and ends at one of its vertices. The ends of a chain go to their partners. If the chain
 // slides, its other vertices need not. The chain as a whole still goes exactly to its partner, edge by edge
 // and in order. libicc chooses where vertices go, so that the energy is low. That suits interfaces of
-// materials and borders whose vertices mean nothing by themselves. The energy is never higher than without
-// sliding.
+// materials and borders whose vertices mean nothing by themselves. Circles around points do not slide. The
+// energy is never higher than without sliding.
 /// vertex i goes to vertex i
 pub const ICC_SLIDE_NONE: i32 = 0;
 /// chains inside the domain slide
