@@ -853,11 +853,12 @@ typedef struct icc_tie {
 
 /** Whether vertices of features may slide: icc_map_options::slide. A *chain* is a row of edges of
  *  rings and lines between two places where more or fewer than two edges meet, a line ends, or a
- *  point lies. A closed chain begins at one of its vertices. Between its ends, the vertices of a
- *  chain that slides need not go to their partners. The chain as a whole goes exactly to its
- *  partner, edge by edge and in order, and libicc chooses how so that the energy is low. That suits
- *  interfaces of materials and borders whose vertices mean nothing by themselves. The map is never
- *  worse than without sliding. */
+ *  point lies. A closed chain begins and ends at one of its vertices. The ends of a chain go to
+ *  their partners. If the chain slides, its other vertices need not. The chain as a whole still
+ *  goes exactly to its partner, edge by edge and in order. libicc chooses where vertices go, so
+ *  that the energy is low. That suits interfaces of materials and borders whose vertices mean
+ *  nothing by themselves. Circles around points do not slide. The energy is never higher than
+ *  without sliding. */
 enum {
     ICC_SLIDE_NONE = 0,   /**< vertex i goes to vertex i */
     ICC_SLIDE_INSIDE = 1, /**< chains inside the domain slide */
@@ -1107,10 +1108,10 @@ typedef struct icc_retarget_options {
  * ::ICC_ERR_CERTIFICATE; take another way, in several calls. If the target has a very different
  * size or is far away, the features first move along with the whole shape.
  *
- * With `iterations` 0 or -1, only faces change that have a vertex with a new place on their
- * boundaries: parts of the domain between lines. Everything else keeps its places exactly. All
- * faces change if the way is blocked, so that the map is made anew, or if the target's box shrinks
- * or grows so far that coordinates are scaled anew.
+ * A *face* is a part of the domain between lines. With `iterations` 0 or -1, a face changes only if
+ * a vertex on its boundary has a new place. Everything else keeps its places exactly. All faces
+ * change if the way is blocked, because the map is then made anew. They also change if the target's
+ * box shrinks or grows so far that libicc scales its coordinates anew.
  *
  * In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew
  * by icc_map_create(), which fills a target without a mesh; icc_env::log then says so. There is no

@@ -25,7 +25,8 @@ static icc_status read_options(icc_map_options *full, const icc_map_options *opt
                          "icc_map_options.slide is %ld; it must be 0, 1 or 2", (long)full->slide);
     if (status == ICC_OK && full->slide != ICC_SLIDE_NONE && full->iterations < 0)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "icc_map_options.iterations is -1, but a map that slides is improved");
+                         "icc_map_options.iterations is -1, but vertices slide only if the map is "
+                         "improved");
     return status;
 }
 

@@ -1,7 +1,8 @@
-/* Pairs outlines part by part. Shapes decide first. The parts that they decide, and the centres of
- * the others, then tell how the whole is moved: by the affine map with the least sum of squares.
- * It places each part, which is then paired where it is nearest. Parts that shapes leave open, such
- * as the round dot of an i, are paired so. The others are paired so if that is clearly better. */
+/* Pairs outlines part by part. Shapes decide first. An affine map is then fitted to the outlines
+ * that shapes have paired, and to the centres of the other parts. This map of the whole places each
+ * part, whose outline is then paired with the nearest places of its partner's outline. Parts that
+ * shapes leave open, such as the round dot of an i, are always paired in this way. The others are
+ * paired so if the result is clearly better. */
 #include "match/part_pairing.h"
 
 #include "base/error.h"
@@ -147,7 +148,7 @@ static void add_part(iccp_plane_affine_sums *sums, const iccp_paired_parts *all,
         iccp_plane_affine_add(sums, length / ICCP_MATCH_SAMPLES, at.from + 2 * k, at.to + 2 * k);
 }
 
-/* The affine map of the whole. */
+/* Fits the affine map of the whole. */
 static void fit_whole(iccp_plane_affine *whole, const iccp_paired_parts *all)
 {
     iccp_plane_affine_sums sums = {0};
@@ -173,7 +174,7 @@ static void place(double *points, size_t n, const iccp_plane_affine *whole, cons
     }
 }
 
-/* Places n vertices of the source about the centre of their part; or, if there is no map, puts them
+/* Places n vertices of the source about the centre of their part. If there is no map, puts them
  * back. */
 static void place_some_vertices(iccp_paired_parts *all, size_t first, size_t n,
                                 const iccp_plane_affine *whole, const double centre[2])
@@ -185,7 +186,8 @@ static void place_some_vertices(iccp_paired_parts *all, size_t first, size_t n,
                2 * n * sizeof *all->moved);
 }
 
-/* Places the vertices of a part, or puts them back: its outline and what lies inside. */
+/* Places the vertices of a part, of its outline and of features inside. Without a map, puts them
+ * back. */
 static void place_vertices(iccp_paired_parts *all, uint32_t part, const iccp_plane_affine *whole)
 {
     const iccp_features *const features = all->domain[0]->features;
@@ -232,8 +234,7 @@ static icc_status place_part(const pairing *p, size_t part, icc_error *err)
     return status;
 }
 
-/* Places the parts begin .. end - 1. Landmarks, and arc length from landmarks or by itself, decide
- * alone. */
+/* Places the parts begin .. end - 1. Where landmarks or arc length have decided, that stays. */
 static icc_status place_some(void *argument, size_t begin, size_t end)
 {
     const pairing *const p = argument;

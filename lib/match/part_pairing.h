@@ -22,8 +22,8 @@ typedef struct iccp_paired_parts {
 } iccp_paired_parts;
 
 /* Pairs the parts and then their outlines. The affine map of the whole places each part whose shape
- * is ambiguous, such as a round dot, or that fits clearly better so. A domain of a single part is
- * refused instead.
+ * is ambiguous, such as a round dot, and each part that then fits clearly better. A single part
+ * whose shape is ambiguous is refused.
  * ICC_ERR_AMBIGUOUS, ICC_ERR_ARGUMENT, ICC_ERR_BOUNDARY. The caller frees the result even after an
  * error. */
 icc_status iccp_pair_parts(iccp_paired_parts *out, const icc_domain *const *domains,

@@ -1,3 +1,4 @@
+/* Fits an affine map by least squares. */
 #include "match/plane_affine.h"
 
 #include <string.h>

@@ -31,9 +31,10 @@ typedef struct iccp_plane_affine_sums {
 void iccp_plane_affine_add(iccp_plane_affine_sums *sums, double weight, const double *from,
                            const double *to);
 
-/* Fits by weighted least squares. If the places lie almost on a line, or would be mirrored, the fit
- * is a similarity. Returns false if the places tell no direction, which depends on the sizes of
- * both sides; the map then moves the first pair, if there is one, by a scaling. */
+/* Fits by weighted least squares. `size`: of the source and of the target as a whole. If the places
+ * lie almost on a line, or would be mirrored, the fit is a similarity. Returns false if the places
+ * tell no direction because their spread is small compared with `size`. The map then scales by the
+ * ratio of the sizes, and takes the first pair, if there is one, to its partner. */
 bool iccp_plane_affine_fit(iccp_plane_affine *affine, const iccp_plane_affine_sums *sums,
                            const double *size);
 

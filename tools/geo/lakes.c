@@ -1,7 +1,7 @@
 /* Walks along the cage with the outside on the left. Where several edges leave a vertex, the walk
- * takes the next one clockwise, so that it stays at one piece of the outside. Each lake has one walk
- * whose lowest corner opens upwards. The walks round islands and round the whole cage have their
- * outside below.
+ * takes the next one clockwise, so that it stays at one piece of the outside. Each lake has one
+ * walk whose lowest corner opens upwards. The walks round islands and round the whole cage have
+ * their outside below.
  *
  * Let v be the lowest corner of a lake, and a and b its neighbours. If no vertex of the cage lies
  * in the triangle a v b, its centre is in the lake. Otherwise take the vertex in the triangle that
@@ -45,7 +45,7 @@ static shore *list_shores(const carrier *cage)
     return s;
 }
 
-/* The first shore that leaves a place. */
+/* Returns the first shore that leaves a place. */
 static size_t first_from(const shore *s, size_t n, const double *place)
 {
     size_t low = 0, high = n;
@@ -59,22 +59,22 @@ static size_t first_from(const shore *s, size_t n, const double *place)
     return low;
 }
 
-/* The clockwise angle from v r to v p in half turns, rounded up: 1 below one, 2 for one, 3 above,
- * 4 for a whole turn. */
+/* Ranks the clockwise angle from v r to v p: 1 below half a turn, 2 for half a turn, 3 above it, 4
+ * for a whole turn. */
 static int clockwise(const double *v, const double *r, const double *p)
 {
     int turn = orientation(v, r, p);
     return turn < 0 ? 1 : turn > 0 ? 3 : by_place(r, p) == 0 ? 4 : 2;
 }
 
-/* The shore on which a walk goes on: clockwise the first one after the way back. */
+/* Returns the shore on which a walk goes on: clockwise the first one after the way back. */
 static size_t next_of(const shore *s, size_t n, size_t i)
 {
     const double *v = s[i].to, *back = s[i].from;
     size_t best = first_from(s, n, v);
     for (size_t k = best + 1; k < n && by_place(s[k].from, v) == 0; k++) {
-        int new = clockwise(v, back, s[k].to), old = clockwise(v, back, s[best].to);
-        if (new < old || (new == old &&orientation(v, s[best].to, s[k].to) > 0))
+        int angle = clockwise(v, back, s[k].to), least = clockwise(v, back, s[best].to);
+        if (angle < least || (angle == least && orientation(v, s[best].to, s[k].to) > 0))
             best = k;
     }
     return best;
@@ -84,9 +84,9 @@ static size_t next_of(const shore *s, size_t n, size_t i)
 static void add_lake(lakes *out, const shore *s, size_t n, const double *a, const double *v,
                      const double *b)
 {
-    const double *inner = NULL, left = fmin(v[0], fmin(a[0], b[0])),
-                 right = fmax(v[0], fmax(a[0], b[0])), top = fmax(a[1], b[1]);
-    double most = 0;
+    double left = fmin(v[0], fmin(a[0], b[0])), right = fmax(v[0], fmax(a[0], b[0]));
+    double top = fmax(a[1], b[1]), most = 0;
+    const double *inner = NULL;
     for (size_t i = first_from(s, n, v); i < n && s[i].from[1] <= top; i++) {
         const double *p = s[i].from;
         if (p[0] < left || p[0] > right || by_place(p, a) == 0 || by_place(p, b) == 0 ||
@@ -117,6 +117,7 @@ static void walk(lakes *out, shore *s, size_t n, size_t from)
         int order = low == NULL ? -1 : by_place(s[i].to, low->to);
         if (order > 0)
             continue;
+        /* A walk that passes its lowest corner twice must open upwards both times. */
         bool turns_left = orientation(s[i].from, s[i].to, s[next].to) > 0;
         opens_upwards = turns_left && (order < 0 || opens_upwards);
         low = &s[i];

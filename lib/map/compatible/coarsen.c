@@ -18,11 +18,12 @@ static const double LEAST_MERGED_ROUNDNESS = 1e-4;
 typedef struct coarsening {
     const iccp_memory *memory;
     iccp_plmap *map;
-    double rise, mean; /* the energy around a vertex may rise by this share, or to this mean, */
-    double worth;      /* or by this amount */
-    double longest;    /* no new edge is longer than this */
-    uint32_t *corner;  /* of each vertex that is left: a corner at it */
-    uint32_t *queue;   /* a ring of n_vertices: n_queued vertices from `first` on */
+    /* The energy around a vertex may rise by the share `rise` plus the amount `worth`, or up to the
+     * density `mean` */
+    double rise, worth, mean;
+    double longest;   /* no new edge is longer than this */
+    uint32_t *corner; /* of each vertex that is left: a corner at it */
+    uint32_t *queue;  /* a ring of n_vertices: n_queued vertices from `first` on */
     size_t first, n_queued;
     uint8_t *is_queued, *is_gone; /* of each vertex */
     uint8_t *is_unused;           /* of each triangle */

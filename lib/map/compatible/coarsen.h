@@ -17,8 +17,8 @@ icc_status iccp_coarsen(iccp_plmap *map, double rise, size_t *n_gone, const iccp
 icc_status iccp_coarsen_within(iccp_plmap *map, double rise, double longest, size_t *n_gone,
                                const iccp_env *env);
 
-/* Like iccp_coarsen(), but the energy around a vertex, summed over the stretched area, may rise by
- * the amount `worth` only. */
+/* Like iccp_coarsen(), but the energy around a vertex may rise by the amount `worth`, not by a
+ * share. The amount is an integral over the stretched area. */
 icc_status iccp_coarsen_worthless(iccp_plmap *map, double worth, size_t *n_gone,
                                   const iccp_env *env);
 

@@ -165,8 +165,9 @@ static icc_status unlock(iccp_plmap *map, const iccp_env *env)
 
 /* ---- vertices that are not worth their triangles ---- */
 
-/* Returns what a vertex must be worth. A refinement that is not in vain gains LEAST_GAIN and cuts
- * MOST_CUT of the triangles, so this is what each cut must gain. */
+/* Returns the energy that a vertex must save to stay. A refinement that is not in vain gains at
+ * least LEAST_GAIN with cuts of up to MOST_CUT of the triangles. This is the gain of one such
+ * cut. */
 static double least_worth(const iccp_plmap *map)
 {
     const uint32_t *v = map->corners.vertex;
@@ -176,7 +177,7 @@ static double least_worth(const iccp_plmap *map)
     return LEAST_GAIN * all.energy / (MOST_CUT * (double)map->corners.n_triangles);
 }
 
-/* Merges vertices that are worth less, and takes steps on the mesh that is left. */
+/* Merges vertices that save less, and takes steps on the mesh that is left. */
 static icc_status merge_and_descend(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
                                     iccp_improvement *improvement, size_t *n_gone,
                                     const iccp_env *env)
@@ -191,8 +192,8 @@ static icc_status merge_and_descend(iccp_plmap *map, const iccp_schedule *schedu
     return status;
 }
 
-/* Merges vertices in rounds, as long as a round takes away a share of LEAST_GAIN of them. A round
- * after which the energy is above `most` is taken back, and so is one that failed. */
+/* Merges vertices in rounds, until a round merges less than a share of LEAST_GAIN of them. A round
+ * that fails, or after which the energy is above `most`, is undone and is the last one. */
 static icc_status thin_out(iccp_plmap *map, const iccp_schedule *schedule, double most,
                            iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
@@ -219,7 +220,7 @@ static icc_status thin_out(iccp_plmap *map, const iccp_schedule *schedule, doubl
     return status;
 }
 
-/* Whether sides of a network meet inside or on the rim. */
+/* Whether three or more sides of a network meet somewhere. */
 static bool has_junctions(const iccp_plmap *map)
 {
     return map->featured != NULL && iccp_network_of(map->featured)->n_junctions > 0;

@@ -6,7 +6,7 @@
 #include "map/energy/refinement.h"
 
 /* Improves as iccp_improve_by() says. A refinement cuts the triangles with the most energy and
- * flips edges. If sides of a network meet, vertices that are not worth their triangles merge in the
+ * flips edges. If the map has junctions, vertices that are not worth their triangles merge in the
  * end. The energy may then rise by 1 %, but not above what it was at first. */
 icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
                         iccp_improvement *improvement, const iccp_env *env);

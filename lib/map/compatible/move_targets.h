@@ -9,8 +9,8 @@
 /* Limits on the mesh of a moving map. */
 typedef struct iccp_mesh_limits {
     double longest_edge;   /* no merge makes a longer edge, and much shorter edges are not cut */
-    size_t most_triangles; /* vertices merge if there are more triangles than this, */
-    size_t n_elsewhere;    /* with so many that do not belong to the moving part */
+    size_t most_triangles; /* vertices merge if the whole map has more triangles than this */
+    size_t n_elsewhere;    /* triangles of the whole map outside the part that moves */
 } iccp_mesh_limits;
 
 /* Changes the mesh near triangles that have far more energy than others: cuts and flips edges, and

@@ -38,7 +38,7 @@ typedef struct search {
     const icc_domain *old_target, *target;
     uint8_t *mark;   /* of each triangle */
     uint8_t *moves;  /* of each vertex: 1 if it is fixed and moves */
-    uint32_t *stack; /* triangles that change, whose neighbours are still to be seen */
+    uint32_t *stack; /* triangles that change, whose neighbours have not been looked at */
     size_t n;        /* in the stack */
     size_t n_changes, n_across;
 } search;
@@ -87,8 +87,8 @@ static void find_changes(search *s)
 
 /* ---- cutting it out ---- */
 
-/* Takes the fixed or the free vertices of the part, in their order, and numbers them. The free
- * vertices of faces that stay are held, so they count as fixed. */
+/* Takes either the fixed or the free vertices of the part, in their order, and numbers them. The
+ * free vertices of faces that stay are held, so they count as fixed. */
 static void take_vertices(iccp_moving_part *part, const iccp_plmap *whole, const uint8_t *mark,
                           bool is_fixed, uint32_t *number)
 {
@@ -214,8 +214,8 @@ static bool has_first_mesh(const iccp_moving_part *part)
            memcmp(c->vertex, part->corners, 3 * c->n_triangles * sizeof *c->vertex) == 0;
 }
 
-/* Copies the places of the first n vertices of the part to those of `to`. number[vertex] is their
- * number there; without `number`, `vertex` is. */
+/* Copies the points and images of the first n vertices of the part to `to`. `number`: of each
+ * vertex of the whole map, its number in `to`. NULL: `to` is the whole map. */
 static void copy_places(iccp_plmap *to, const iccp_moving_part *part, size_t n,
                         const uint32_t *number)
 {
@@ -227,8 +227,8 @@ static void copy_places(iccp_plmap *to, const iccp_moving_part *part, size_t n,
 }
 
 /* Fills `fresh` with the vertices and triangles outside the part, and then with those of the part.
- * `number`: of each vertex of `whole`, 0 if it stays, and NONE if the part has it as a free one.
- * `own`: room for the numbers of the part's vertices. */
+ * `number`: of each vertex of `whole`, NONE if it was a free vertex of the part, else 0. `own`:
+ * room for the numbers of the part's vertices. */
 static void merge(iccp_plmap *fresh, const iccp_moving_part *part, const iccp_plmap *whole,
                   uint32_t *number, uint32_t *own)
 {

@@ -1,10 +1,9 @@
 /* The part of a plane map that changes when its target moves.
  *
  * A face of the network changes if a vertex on its walks has another place in the new target. All
- * other faces stay: every vertex keeps its point and its image, bit for bit. So only the faces that
- * change are moved. They are a map of their own, together with the triangles across their sides,
- * because a cut of a side concerns both. The free vertices of those triangles are held, as
- * ICCP_ON_POINT. */
+ * other faces stay. There every vertex keeps its point and its image, bit for bit. So only the
+ * faces that change are moved, as a map of their own. The triangles across their sides belong to it
+ * as well, because a cut of a side cuts them, too. Their free vertices are held (ICCP_ON_POINT). */
 #ifndef ICCP_MOVING_PART_H
 #define ICCP_MOVING_PART_H
 
@@ -13,11 +12,11 @@
 typedef struct iccp_moving_part {
     bool is_whole;  /* all faces change; then the rest is empty */
     iccp_plmap map; /* the part; its mesh may change, but the first n_fixed vertices stay */
-    /* Of the part at first: the vertices, of which the first n_fixed are fixed, the number of each
-     * in the whole map, and the corners. */
-    size_t n_fixed, n_first;
-    uint32_t *vertex, *corners;
+    /* The part as it was cut out */
+    size_t n_first, n_fixed; /* its vertices, and how many of them are fixed; these come first */
+    uint32_t *vertex;        /* of each of its vertices: the number in the whole map */
     size_t n_triangles;
+    uint32_t *corners;  /* of its triangles */
     uint8_t *is_inside; /* of each triangle of the whole map: 1 if it is in the part */
 } iccp_moving_part;
 
@@ -33,8 +32,8 @@ icc_status iccp_moving_part_put_back(const iccp_moving_part *part, iccp_plmap *w
 
 void iccp_moving_part_free(iccp_moving_part *part);
 
-/* Whether a fixed vertex of a map keeps its place from one target to the next. Both have the same
- * frame. Vertices that are held stay. */
+/* Whether a fixed vertex of a map keeps its place from one target to the next. The targets must
+ * have the same frame. Vertices that are not on the network stay. */
 bool iccp_stays(const iccp_plmap *map, size_t vertex, const icc_domain *old_target,
                 const icc_domain *target);
 

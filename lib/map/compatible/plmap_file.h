@@ -5,7 +5,8 @@
 #include "base/blob.h"
 #include "map/compatible/plmap.h"
 
-/* The version of the bytes of maps that lists vertices on a network (map/map_file.c). */
+/* Versions of the bytes of maps (map/map_file.c): from the first on, they list vertices on a
+ * network. */
 enum iccp_plmap_version { ICCP_VERSION_NETWORKS = 4, ICCP_VERSION_SLIDING };
 
 /* Reads into a map that is all zero, or writes. ICC_ERR_FORMAT unless the triangles are a manifold

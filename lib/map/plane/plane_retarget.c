@@ -24,9 +24,8 @@ enum { CAGE_ITERATIONS = 8, FEATURE_ITERATIONS = -1 };
  * triangles than MANY, and MANY_EACH for each given vertex, it is thinned out. */
 enum { ENOUGH = 1000, CELLS = 15, MANY = 1400, MANY_EACH = 8 };
 
-/* How many times in turn a blocked motion may change the mesh. PATIENCE: before rebuild().
- * LAST_PATIENCE: after rebuild() failed, for a part of a map, and for cages, which are not
- * rebuilt. */
+/* How many times in turn a blocked motion may change the mesh. PATIENCE: a whole map with features,
+ * before rebuild(). LAST_PATIENCE: all other motions. */
 enum { PATIENCE = 0, LAST_PATIENCE = 1 };
 
 /* Moves the images of fixed vertices to where another target wants them. */
@@ -55,9 +54,9 @@ static bool same_memory(const iccp_memory *a, const iccp_memory *b)
     return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
 }
 
-/* Finds the plan of Newton's method for a mesh that follows a map. The maps that follow share it,
- * and the first of them makes it. *plan is NULL if the two maps use different allocators. It is
- * released by the caller. */
+/* Finds the plan of Newton's method for a mesh that follows a map. The first map that follows makes
+ * the plan, and later ones with the same mesh share it. *plan is NULL if the two maps use different
+ * allocators. The caller releases it. */
 static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_plmap *mesh,
                           const iccp_env *env)
 {
@@ -81,7 +80,7 @@ static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, con
 typedef struct journey {
     const iccp_mesh_map *map;
     const icc_domain *source, *old_target, *target;
-    bool has_plan; /* Newton's plan is kept for the next frame */
+    bool has_plan; /* Newton's plan is shared with other frames */
 } journey;
 
 /* Makes a new map in the isotopy class that the moved map would have. All faces change. *made:
@@ -108,14 +107,14 @@ static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp
     return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
 }
 
-/* What moves: the mesh of a map, or of a part of it. */
+/* What moves: the mesh of a whole map, or of a part of it. */
 typedef struct traveller {
     iccp_mesh_map *map;
     iccp_plmap *mesh;
     const icc_domain *old_target; /* vertices that have the same place there stay; NULL: none */
     iccp_mesh_limits limits;
-    bool reached;
-    double room;
+    bool reached; /* the target */
+    double room;  /* see iccp_move_targets() */
 } traveller;
 
 static icc_status go(traveller *t, const journey *j, size_t patience, iccp_allowance *work,
@@ -125,8 +124,8 @@ static icc_status go(traveller *t, const journey *j, size_t patience, iccp_allow
                              &t->reached, &t->room, env);
 }
 
-/* Moves to the target. If the way is blocked, the whole map is rebuilt in its class. A part is
- * mended before that. */
+/* Moves to the target. If the way is blocked, the whole map is rebuilt in its class. For a part,
+ * its mesh is changed once before that. */
 static icc_status go_or_rebuild(traveller *t, const journey *j, iccp_allowance *work,
                                 const iccp_env *env)
 {

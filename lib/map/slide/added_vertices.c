@@ -13,9 +13,24 @@ typedef struct writer {
     const iccp_slide *slide;
     const icc_domain *domain;
     const iccp_network *network;
-    size_t *corner; /* by position in chains.half, plus the chain's number: the knot at the corner
-                       where that side begins, or behind the last one */
+    size_t *corner; /* the knots at the source's corners: chain by chain, where each side begins,
+                       and where the last one ends */
 } writer;
+
+/* Returns where `corner` has the knots at both ends of a side, along its chain. */
+static size_t *ends_of(const writer *w, uint32_t side)
+{
+    const iccp_chains *chains = &w->slide->chains;
+    return w->corner + chains->order[side] + chains->chain[side];
+}
+
+/* Whether a side, taken along its chain, begins at a vertex. */
+static bool begins_at(const writer *w, uint32_t side, uint32_t vertex)
+{
+    const iccp_chains *chains = &w->slide->chains;
+    return iccp_network_origin(w->network, w->domain, chains->half[chains->order[side]]) ==
+           w->network->node[vertex];
+}
 
 static void find_corners(writer *w)
 {
@@ -35,12 +50,9 @@ static void add(writer *w, size_t knot, size_t after)
 /* Adds the vertex where a facet begins, and the knots inside the facet. */
 static void add_facet(writer *w, uint32_t facet)
 {
-    const iccp_chains *chains = &w->slide->chains;
     const uint32_t side = w->network->side[facet], begin = w->domain->facets[2 * (size_t)facet];
-    const size_t order = chains->order[side];
-    const size_t *corner = w->corner + order + chains->chain[side];
-    const bool is_forward =
-        iccp_network_origin(w->network, w->domain, chains->half[order]) == w->network->node[begin];
+    const size_t *corner = ends_of(w, side);
+    const bool is_forward = begins_at(w, side, begin);
     w->a->vertex[begin] = (uint32_t)w->a->n;
     for (size_t k = corner[0]; is_forward && k < corner[1]; ++k)
         add(w, k, 2 * k);
@@ -63,12 +75,8 @@ static size_t add_feature(writer *w, int32_t kind, uint32_t first_facet, uint32_
     if (kind == ICC_FEATURE_LINE) {
         const uint32_t last = first_facet + n_facets - 1, end = facets[2 * n_facets - 1];
         const uint32_t side = w->network->side[last];
-        const iccp_chains *chains = &w->slide->chains;
-        const size_t order = chains->order[side];
-        const bool is_forward = iccp_network_origin(w->network, w->domain, chains->half[order]) !=
-                                w->network->node[end];
         w->a->vertex[end] = (uint32_t)w->a->n;
-        add(w, w->corner[order + chains->chain[side] + is_forward], UINT32_MAX);
+        add(w, ends_of(w, side)[begins_at(w, side, end) ? 0 : 1], UINT32_MAX);
     }
     return w->a->n - before;
 }
@@ -87,12 +95,11 @@ static void add_all(writer *w)
  * its knots. */
 static size_t count_most(const writer *w)
 {
-    const iccp_chains *chains = &w->slide->chains;
     size_t n = w->domain->features->n;
     for (size_t f = 0; f < w->domain->features->n_places; ++f) {
-        const uint32_t side = w->network->side[f], c = chains->chain[side];
-        const size_t *corner = w->corner + chains->order[side] + c;
-        n += c != UINT32_MAX ? corner[1] - corner[0] : 0;
+        const uint32_t side = w->network->side[f];
+        if (w->slide->chains.chain[side] != UINT32_MAX) /* not a lone point */
+            n += ends_of(w, side)[1] - ends_of(w, side)[0];
     }
     return n;
 }
@@ -135,8 +142,8 @@ void iccp_added_vertices_free(iccp_added_vertices *added)
 
 /* ---- places ---- */
 
-/* Interpolates along the facet's own direction, and never leaves the box of its ends. So the frame
- * of the domain stays the same. */
+/* Interpolates between the ends of a side, and never leaves their box. So the frame of the domain
+ * stays the same. */
 static void find_place(const iccp_slide *slide, size_t chain, const iccp_knot *knot, int side,
                        const double *vertices, double place[2])
 {

@@ -8,10 +8,10 @@
 typedef struct iccp_added_vertices {
     iccp_memory memory;
     size_t n;
-    size_t *count;  /* of the outer ring and then of each feature: its vertices */
+    size_t *count;  /* numbers of vertices: of the outer ring, and then of each feature */
     uint32_t *knot; /* of each vertex: its knot, or UINT32_MAX for a lone point */
     /* Of each vertex: 2 k if the edge to the next vertex of its feature runs from knot k to knot
-     * k + 1, and 2 k + 1 if it runs back from knot k + 1 to k */
+     * k + 1, 2 k + 1 if it runs back from knot k + 1 to k, UINT32_MAX if there is none */
     uint32_t *after;
     uint32_t *vertex; /* of each vertex of the given domains: its new number */
 } iccp_added_vertices;
@@ -24,8 +24,8 @@ void iccp_added_vertices_free(iccp_added_vertices *added);
 void iccp_knot_place(const iccp_slide *slide, size_t chain, const iccp_knot *knot, int side,
                      double place[2]);
 
-/* Makes the larger source (side 0) or target (side 1). Added vertices lie on their sides within
- * rounding. Fails if rounding makes sides meet. */
+/* Makes the source (side 0) or target (side 1) with the knots as vertices. Added vertices lie on
+ * their sides up to rounding. Fails if rounding makes sides meet. */
 icc_status iccp_domain_with_knots(icc_domain **out, const iccp_slide *slide, int side,
                                   const iccp_env *env, icc_error *err);
 

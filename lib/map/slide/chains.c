@@ -24,7 +24,7 @@ static void find_stops(walk *w)
     }
 }
 
-/* Adds the chain that begins with a half-side. A closed chain ends where it began. */
+/* Adds the chain that begins with a half-side at a stop. It ends at the next stop. */
 static void follow(walk *w, uint32_t half)
 {
     iccp_chains *c = w->c;
@@ -47,8 +47,8 @@ static bool is_new(const walk *w, uint32_t side)
     return iccp_network_is_side(w->network, w->domain, side) && w->c->chain[side] == UINT32_MAX;
 }
 
-/* Chains from stop to stop come first. What is left is closed, and stops where its smallest side
- * begins. */
+/* Chains between given stops come first. What is left is closed chains. The stop of each is where
+ * its smallest side begins. */
 static void follow_all(walk *w)
 {
     const uint32_t n_sides = (uint32_t)w->domain->features->n_places;

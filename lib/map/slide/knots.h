@@ -5,7 +5,8 @@
 #include "base/blob.h"
 #include "map/slide/chains.h"
 
-/* A pair of places on a chain. The last knot of a chain of n sides is at[k] = n, along[k] = 0. */
+/* A pair of places on a chain. The last knot of a chain of n sides is
+ * {{n, n}, {0, 0}}. */
 typedef struct iccp_knot {
     uint32_t at[2];  /* before and after the map: the side, counted along the chain */
     double along[2]; /* the place on that side, along the chain, in [0, 1) */
@@ -20,7 +21,7 @@ typedef struct iccp_slide {
     iccp_knot *knot;
 } iccp_slide;
 
-/* Begins a slide with room for n_knots. The caller fills in `first` and `knot`. */
+/* Begins a slide with room for n_knots. The caller fills in `first`, which is all 0, and `knot`. */
 icc_status iccp_slide_begin(iccp_slide **out, const icc_domain *source, const icc_domain *target,
                             size_t n_knots, const iccp_memory *memory);
 
@@ -49,8 +50,8 @@ static inline bool iccp_knot_stays(const iccp_knot *knot)
  * once. */
 size_t iccp_slide_count(const iccp_slide *slide);
 
-/* Reads or writes the knots. When it reads, the slide has its domains, and the knots that are read
- * are valid. */
+/* Reads or writes the knots. When it reads, it makes the slide between the domains, and refuses
+ * knots that are not valid. */
 icc_status iccp_slide_visit(iccp_blob *b, iccp_slide **slide, const icc_domain *source,
                             const icc_domain *target, const iccp_memory *memory);
 

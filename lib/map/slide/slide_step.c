@@ -3,17 +3,16 @@
  * In that mesh all vertices on a chain, except its stops, may now move along the chain. Each has
  * one unknown in Newton's equations (energy/newton.h): its rail is the direction of the chain
  * there. The steps tell how far it wants to go. On a curved chain a rail leaves the chain, so the
- * steps are only a model. The chain itself is then parametrised by its length: vertices go as far
- * along it, corners of the target get the places before the map that follow, and the true map of
- * the new slide decides. A corner of the source may pass corners of the target in one step. */
+ * steps are only a model. Each vertex then goes that far along the chain itself. A curve through
+ * the vertices gives each length of the chain before the map its length after it, and so the places
+ * of all corners. A corner of the source may pass corners of the target in one step. */
 #include "map/slide/slide_step.h"
 
-#include "base/minmax.h"
 #include "base/sort.h"
 #include "map/energy/descent.h"
 #include "map/slide/added_vertices.h"
+#include "map/slide/merge_corners.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Steps of the model. With more, rails lead too far from curved chains. */
@@ -21,10 +20,6 @@ static const iccp_descent MODEL = {0, 3, 1e-3, 0, true};
 
 /* A gap between neighbours keeps at least this share of its length. */
 static const double LEAST_GAP = 0.1;
-
-/* A corner whose image comes so close to a corner of the target goes there. Measured in the
- * shortest side at each of them. Slivers beside the chain cost more than such a motion gains. */
-static const double NEAR = 0.05;
 
 /* A vertex of the mesh on a chain, between knot and knot + 1. */
 typedef struct item {
@@ -42,12 +37,11 @@ typedef struct step {
     uint8_t *is_held; /* by knot */
     double *length;   /* 2 for each knot: of the chain before it, in source and target */
     size_t n;
-    item *item;     /* those on chains that may slide, along them */
-    double *from;   /* of each item: its length in the source, */
-    double *to;     /* and in the target; later where it shall go */
-    double *by;     /* how far it wants to go in the target */
-    size_t *corner; /* of the present chain: knots at corners of the source and the target */
-    double *curve;  /* of the present chain: lengths before and after, 2 for each point */
+    item *item;         /* those on chains that may slide, along them */
+    double *from;       /* of each item: the length of the chain up to it in the source, */
+    double *to;         /* and in the target; later where it shall go */
+    double *by;         /* of each item: how far it wants to go in the target */
+    iccp_chain_way way; /* of the present chain */
     iccp_slide *out;
 } step;
 
@@ -67,6 +61,7 @@ static bool may_slide(const step *s, size_t chain)
 
 /* ---- the vertices on the chains ---- */
 
+/* Finds the lengths of the chains up to each knot. */
 static void measure(step *s)
 {
     const iccp_slide *slide = s->slide;
@@ -116,20 +111,31 @@ static int along_chains(const void *a, const void *b)
     return (p->share > q->share) - (p->share < q->share);
 }
 
-/* Lists the vertices on chains that may slide, without stops. */
-static void list_items(step *s, uint8_t *is_listed)
+/* What may slide at a knot and behind it, up to the next one. */
+enum { STAYS, BEHIND_IT, SLIDES };
+
+static void mark_sliding(const step *s, uint8_t *slides)
 {
     const iccp_slide *slide = s->slide;
-    for (size_t c = 0; c < slide->chains.n; ++c)
-        for (size_t k = slide->first[c]; k < slide->first[c + 1]; ++k)
-            is_listed[k] = !may_slide(s, c)               ? 0
-                           : k == slide->first[c]         ? 2
-                           : k + 1 == slide->first[c + 1] ? 0
-                                                          : 1;
+    for (size_t c = 0; c < slide->chains.n; ++c) {
+        const size_t first = slide->first[c], last = slide->first[c + 1] - 1;
+        const bool any = may_slide(s, c);
+        for (size_t k = first; k <= last; ++k)
+            slides[k] = any ? SLIDES : STAYS;
+        if (any)
+            slides[first] = BEHIND_IT;
+        slides[last] = STAYS;
+    }
+}
+
+/* Lists the vertices on chains that may slide, without stops. `slides`: room for each knot. */
+static void list_items(step *s, uint8_t *slides)
+{
+    mark_sliding(s, slides);
     for (uint32_t v = 0; v < s->map->n_vertices; ++v) {
         item at;
         if (locate(s, v, &at) &&
-            (is_listed[at.knot] == 1 || (is_listed[at.knot] == 2 && at.share > 0)))
+            (slides[at.knot] == SLIDES || (slides[at.knot] == BEHIND_IT && at.share > 0)))
             s->item[s->n++] = at;
     }
     iccp_sort(s->item, s->n, sizeof *s->item, along_chains);
@@ -169,7 +175,8 @@ static void go_evenly(step *s, size_t chain, size_t begin, size_t end)
     }
 }
 
-/* Sets the rails of a chain's vertices: from the image of the one before to the next one's. */
+/* Sets the rails of a chain's vertices, and frees the vertices. A rail points from the image of the
+ * vertex before to that of the next one. */
 static void lay_rails(const step *s, size_t chain, size_t begin, size_t end, double *rail,
                       uint8_t *fixed)
 {
@@ -191,7 +198,7 @@ static void lay_rails(const step *s, size_t chain, size_t begin, size_t end, dou
     }
 }
 
-/* Takes the steps of the model. `work`: room for 4 numbers of each vertex of the mesh. */
+/* Takes the steps of the model. `room`: 4 numbers for each vertex of the mesh. `fixed`: one. */
 static icc_status take_model(step *s, double *room, uint8_t *fixed, const iccp_env *env)
 {
     const size_t n = 2 * s->map->n_vertices;
@@ -231,7 +238,7 @@ static icc_status go_down(step *s, const iccp_env *env)
     return status;
 }
 
-/* Moves a chain's vertices by the share of their way at which each gap is long enough. */
+/* Moves a chain's vertices by the same share of their ways, so that each gap stays long enough. */
 static void move(step *s, size_t chain, size_t begin, size_t end)
 {
     double share = s->request->share, to = 0, by = 0;
@@ -250,113 +257,45 @@ static void move(step *s, size_t chain, size_t begin, size_t end)
 
 /* ---- the new knots ---- */
 
-/* Returns y where the curve has x. `side`: 0 if x is before the map and y after it, 1 if the other
- * way around. *at goes along with rising x. */
-static double follow(const double *curve, size_t n, int side, double x, size_t *at)
+/* Finds the lengths up to the corners of a chain, and the curve through its vertices. */
+static void find_way(step *s, size_t chain, size_t begin, size_t end)
 {
-    while (*at + 2 < n && curve[2 * (*at + 1) + (size_t)side] < x)
-        ++*at;
-    const double *a = curve + 2 * *at, *b = a + 2;
-    const double share = (x - a[side]) / (b[side] - a[side]);
-    return a[1 - side] + iccp_min(iccp_max(share, 0), 1) * (b[1 - side] - a[1 - side]);
-}
-
-/* Writes the curve of lengths through the vertices of a chain. Returns the number of its points. */
-static size_t draw_curve(step *s, size_t chain, size_t begin, size_t end)
-{
+    const iccp_slide *slide = s->slide;
+    double *curve = s->way.curve;
     size_t n = 0;
-    memset(s->curve, 0, 2 * sizeof *s->curve);
+    s->way.n_sides = sides_of(slide, chain);
+    for (size_t k = slide->first[chain]; k < slide->first[chain + 1]; ++k)
+        for (size_t side = 0; side < 2; ++side)
+            if (iccp_knot_is_corner(&slide->knot[k], (int)side))
+                s->way.corner[2 * slide->knot[k].at[side] + side] = s->length[2 * k + side];
+    memset(curve, 0, 2 * sizeof *curve);
     for (size_t i = begin; i < end; ++i) {
-        s->curve[2 * ++n] = s->from[i];
-        s->curve[2 * n + 1] = s->to[i];
+        curve[2 * ++n] = s->from[i];
+        curve[2 * n + 1] = s->to[i];
     }
-    memcpy(s->curve + 2 * ++n, s->length + 2 * (s->slide->first[chain + 1] - 1),
-           2 * sizeof *s->curve);
-    return n + 1;
+    memcpy(curve + 2 * ++n, s->length + 2 * (slide->first[chain + 1] - 1), 2 * sizeof *curve);
+    s->way.n_points = n + 1;
 }
 
-/* The length up to a corner of the present chain. */
-static double corner_length(const step *s, size_t corner, int side)
+static void copy_knot(step *s, size_t knot)
 {
-    return s->length[2 * s->corner[2 * corner + (size_t)side] + (size_t)side];
+    s->out->knot[s->out->first[s->slide->chains.n]++] = s->slide->knot[knot];
 }
 
-static double shortest_side(const step *s, size_t corner, int side)
-{
-    const double at = corner_length(s, corner, side);
-    return iccp_min(at - corner_length(s, corner - 1, side),
-                    corner_length(s, corner + 1, side) - at);
-}
-
-/* Adds a knot at corner p of the source, or at corner q of the target, or at both. The other place
- * is `at`. Returns false if it does not lie behind the last knot. */
-static bool add_knot(step *s, const size_t corner[2], const bool is_corner[2], double at)
-{
-    const size_t n = s->out->first[s->slide->chains.n];
-    const iccp_knot *last = &s->out->knot[n - 1];
-    iccp_knot knot = {{0}, {0}};
-    bool is_good = true;
-    for (int side = 0; side < 2; ++side) {
-        knot.at[side] = (uint32_t)(is_corner[side] ? corner[side] : corner[side] - 1);
-        if (is_corner[side])
-            continue;
-        const double begin = corner_length(s, corner[side] - 1, side);
-        const double end = corner_length(s, corner[side], side);
-        knot.along[side] = (at - begin) / (end - begin);
-        is_good &= knot.along[side] > (last->at[side] == knot.at[side] ? last->along[side] : 0) &&
-                   knot.along[side] < 1;
-    }
-    s->out->knot[n] = knot;
-    ++s->out->first[s->slide->chains.n];
-    return is_good;
-}
-
-/* Merges the corners of source and target along the curve. */
-static bool merge(step *s, size_t n_sides, size_t n_points)
-{
-    size_t corner[2] = {1, 1}, at[2] = {0, 0};
-    bool is_good = true;
-    while (is_good && (corner[0] < n_sides || corner[1] < n_sides)) {
-        const size_t p = corner[0], q = corner[1];
-        const double here[2] = {corner_length(s, p, 0), corner_length(s, q, 1)};
-        const double there[2] = {follow(s->curve, n_points, 0, here[0], &at[0]),
-                                 follow(s->curve, n_points, 1, here[1], &at[1])};
-        bool is[2] = {p < n_sides && (q == n_sides || there[0] < here[1]), false};
-        is[1] = !is[0];
-        if (p < n_sides && q < n_sides &&
-            fabs(there[0] - here[1]) <= NEAR * shortest_side(s, q, 1) &&
-            fabs(there[1] - here[0]) <= NEAR * shortest_side(s, p, 0))
-            is[0] = is[1] = true;
-        is_good = add_knot(s, corner, is, is[0] ? there[0] : there[1]);
-        corner[0] += is[0];
-        corner[1] += is[1];
-    }
-    return is_good;
-}
-
-static void add_stop(step *s, const iccp_knot *knot)
-{
-    s->out->knot[s->out->first[s->slide->chains.n]++] = *knot;
-}
-
-/* Writes the knots of a chain. out->first[chains.n] counts those of all chains. */
+/* Writes the knots of a chain. out->first[chains.n] counts the knots of all chains. */
 static bool write_chain(step *s, size_t chain, size_t begin, size_t end)
 {
     const iccp_slide *slide = s->slide;
     const size_t first = slide->first[chain], last = slide->first[chain + 1] - 1;
-    const size_t n_points = draw_curve(s, chain, begin, end);
     bool is_good = true;
-    for (size_t k = first; k <= last; ++k)
-        for (int side = 0; side < 2; ++side)
-            if (iccp_knot_is_corner(&slide->knot[k], side))
-                s->corner[2 * slide->knot[k].at[side] + (size_t)side] = k;
-    add_stop(s, &slide->knot[first]);
-    if (may_slide(s, chain))
-        is_good = merge(s, sides_of(slide, chain), n_points);
-    else
-        for (size_t k = first + 1; k < last; ++k)
-            add_stop(s, &slide->knot[k]);
-    add_stop(s, &slide->knot[last]);
+    copy_knot(s, first);
+    if (may_slide(s, chain)) {
+        find_way(s, chain, begin, end);
+        is_good = iccp_merge_corners(s->out->knot, &s->out->first[slide->chains.n], &s->way);
+    }
+    for (size_t k = first + 1; k < last && !may_slide(s, chain); ++k)
+        copy_knot(s, k);
+    copy_knot(s, last);
     return is_good;
 }
 
@@ -392,18 +331,18 @@ static icc_status begin(step *s, const iccp_env *env)
     s->from = iccp_alloc(memory, n, sizeof *s->from);
     s->to = iccp_alloc(memory, n, sizeof *s->to);
     s->by = iccp_alloc(memory, n, sizeof *s->by);
-    s->corner = iccp_alloc(memory, n_sides + 1, 2 * sizeof *s->corner);
-    s->curve = iccp_alloc(memory, n + 2, 2 * sizeof *s->curve);
-    uint8_t *is_listed = iccp_alloc(memory, n_knots, 1);
+    s->way.corner = iccp_alloc(memory, n_sides + 1, 2 * sizeof *s->way.corner);
+    s->way.curve = iccp_alloc(memory, n + 2, 2 * sizeof *s->way.curve);
+    uint8_t *slides = iccp_alloc(memory, n_knots, 1);
     const bool is_there = s->is_held != NULL && s->length != NULL && s->item != NULL &&
-                          s->from != NULL && s->to != NULL && s->by != NULL && s->corner != NULL &&
-                          s->curve != NULL && is_listed != NULL;
+                          s->from != NULL && s->to != NULL && s->by != NULL &&
+                          s->way.corner != NULL && s->way.curve != NULL && slides != NULL;
     if (is_there) {
         measure(s);
         mark_held(s);
-        list_items(s, is_listed);
+        list_items(s, slides);
     }
-    iccp_free(memory, is_listed);
+    iccp_free(memory, slides);
     return is_there ? ICC_OK : ICC_ERR_MEMORY;
 }
 
@@ -416,10 +355,11 @@ static void release(step *s, const iccp_memory *memory)
     iccp_free(memory, s->from);
     iccp_free(memory, s->to);
     iccp_free(memory, s->by);
-    iccp_free(memory, s->corner);
-    iccp_free(memory, s->curve);
+    iccp_free(memory, s->way.corner);
+    iccp_free(memory, s->way.curve);
 }
 
+/* Finds how far each vertex wants to go. */
 static icc_status find_ways(step *s, const iccp_env *env)
 {
     if (s->request->way == ICCP_SLIDE_DOWN)

@@ -2,9 +2,9 @@
  *
  * Each round proposes a slide from the best map, and makes a map between the domains with its
  * knots. The first round makes chains correspond by their lengths, which is a good guess where
- * their vertices are spaced otherwise before than after. Later rounds go down the energy. If the
- * new map is no better, the next round goes half as far. The true energy of a certified map
- * decides, so the result is never worse than the map without sliding. */
+ * their vertices are spaced differently. Later rounds follow Newton's steps. If the new map is no
+ * better, the next round goes half as far. The energy of the finished map decides, so the result is
+ * never worse than the map without sliding. */
 #include "map/slide/sliding.h"
 
 #include "base/clock.h"
@@ -14,21 +14,24 @@
 #include "map/slide/slide_step.h"
 
 #include <math.h>
+#include <string.h>
 
-/* The most rounds: they still gain a little on letters with bars whose outlines slide. */
+/* The most rounds. On letters with bars whose outlines slide, the last of them still gain a
+ * little. */
 enum { ROUNDS = 12 };
 
-/* A round that gains no more than this share of the energy above an isometry's is in vain. */
+/* A round that gains no more than this share of the energy above an isometry's (4) is in vain. */
 static const double LEAST_GAIN = 1e-3;
 
 typedef struct sliding {
     icc_map *map;      /* the best so far */
     iccp_slide *slide; /* its slide */
-    uint8_t *is_held;
+    uint8_t *is_held;  /* by given vertex: 1 at the ends of ties */
     const icc_map_options *options;
     iccp_map_maker maker;
 } sliding;
 
+/* Whether an attempt failed for good. Any other failure only means that its map is not there. */
 static bool is_lost(icc_status status)
 {
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED;
@@ -97,7 +100,8 @@ static icc_status attempt(sliding *s, const iccp_slide_request *request, outcome
     return is_lost(status) ? status : ICC_OK;
 }
 
-static icc_status go_down(sliding *s, const iccp_env *env)
+/* Takes rounds until a whole step and then half a step are in vain. */
+static icc_status take_rounds(sliding *s, const iccp_env *env)
 {
     iccp_slide_request request = {.way = ICCP_SLIDE_EVENLY,
                                   .share = 1,
@@ -116,15 +120,21 @@ static icc_status go_down(sliding *s, const iccp_env *env)
     return status;
 }
 
-/* The ends of ties stay. */
+/* Holds the ends of ties, and the circles around points, which do not turn. */
 static icc_status hold(sliding *s, const icc_domain *source, const iccp_memory *memory)
 {
     s->is_held = iccp_alloc_zero(memory, source->n_vertices, 1);
-    for (size_t i = 0; s->is_held != NULL && s->options->ties != NULL && i < s->options->n_ties;
-         ++i)
+    if (s->is_held == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; s->options->ties != NULL && i < s->options->n_ties; ++i)
         for (int end = 0; end < 2; ++end)
             s->is_held[s->options->ties[i].vertex[end]] = 1;
-    return s->is_held != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t f = 0; f < source->features->n; ++f) {
+        const iccp_feature *feature = &source->features->item[f];
+        if (feature->rim_of != UINT32_MAX)
+            memset(s->is_held + feature->first, 1, feature->n);
+    }
+    return ICC_OK;
 }
 
 icc_status iccp_map_create_sliding(icc_map **out, const icc_domain *source,
@@ -141,7 +151,7 @@ icc_status iccp_map_create_sliding(icc_map **out, const icc_domain *source,
     if (status == ICC_OK)
         status = hold(&s, source, &env->memory);
     if (status == ICC_OK)
-        status = go_down(&s, &part[1]);
+        status = take_rounds(&s, &part[1]);
     iccp_free(&env->memory, s.is_held);
     if (status != ICC_OK) {
         iccp_map_release(s.map);

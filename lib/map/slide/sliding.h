@@ -16,11 +16,11 @@ icc_status iccp_map_create_sliding(icc_map **out, const icc_domain *source,
                                    const icc_domain *target, const icc_map_options *options,
                                    iccp_map_maker maker, const iccp_env *env, icc_error *err);
 
-/* Hands a slide over to a map between the domains with its knots. */
+/* Hands a slide over to a map between the domains with its knots. The map then owns it. */
 void iccp_map_set_slide(icc_map *map, iccp_slide *slide);
 
-/* Gives a map the slide of another one, if that has one. `target`: the given target, or NULL if it
- * stays. */
+/* Gives `next` a copy of the slide of `map`, if there is one. `target`: the target that the caller
+ * gave, or NULL if it is that of `map`. */
 icc_status iccp_map_keep_slide(icc_map *next, const icc_map *map, const icc_domain *target);
 
 /* Gives the ends of a tie the numbers of the caller's vertices. Returns ICC_ERR_UNSUPPORTED if one

@@ -160,7 +160,7 @@ static icc_status find_borders(making *m, const iccp_memory *memory)
     return ICC_OK;
 }
 
-/* The distance between the ends of a border, in the caller's coordinates. */
+/* Returns the distance between the ends of a border, in the caller's coordinates. */
 static double distance_of_ends(const iccp_layer_graph *graph, const iccp_border *border)
 {
     double end[2][2];
@@ -170,15 +170,15 @@ static double distance_of_ends(const iccp_layer_graph *graph, const iccp_border 
 }
 
 /* Chooses the difference that says most: a region if there is one, else the border whose ends are
- * nearest. Where it makes two nodes of one, all borders that end there differ, too. */
-static size_t choose(const making *m, double *distance)
+ * nearest. Such a border is often the cause of the others: the other layer has one node instead, so
+ * all borders that end there differ. Regions come first in the list, then borders in this order. */
+static size_t choose_difference(const making *m, double *distance)
 {
-    const icc_coverage_difference *const all = m->coverage->difference;
     size_t best = 0, k = 0;
     *distance = HUGE_VAL;
-    while (k < m->coverage->info.n_differences && all[k].kind == ICC_DIFFERENCE_REGION)
-        ++k;
-    for (int e = 0; e < 2 && all[0].kind != ICC_DIFFERENCE_REGION; ++e) {
+    if (m->coverage->difference[0].kind == ICC_DIFFERENCE_REGION)
+        return 0;
+    for (int e = 0; e < 2; ++e) {
         const iccp_layer_graph *const graph = m->pairing.graph[e];
         const uint32_t *const partner = e == 0 ? m->pairing.border : m->pairing.back;
         for (size_t b = 0; b < graph->n_borders; ++b) {
@@ -194,8 +194,8 @@ static size_t choose(const making *m, double *distance)
     return best;
 }
 
-/* Describes a difference, if there are any that are not to be left out. A border whose ends are
- * welded to each other vanishes. */
+/* Fails with the difference that says most, unless differences are left out. The message names
+ * remedies: a border whose ends are welded to each other vanishes. */
 static icc_status refuse(const making *m, icc_error *err)
 {
     const size_t n = m->coverage->info.n_differences;
@@ -203,7 +203,8 @@ static icc_status refuse(const making *m, icc_error *err)
     double distance;
     if (n == 0 || m->options->unmatched == ICC_UNMATCHED_LEAVE_OUT)
         return ICC_OK;
-    const icc_coverage_difference *const d = &m->coverage->difference[choose(m, &distance)];
+    const icc_coverage_difference *const d =
+        &m->coverage->difference[choose_difference(m, &distance)];
     const char *const layer = d->side == 1 ? "source" : "target";
     if (n > 1)
         snprintf(more, sizeof more, " (and %zu more difference%s)", n - 1, n == 2 ? "" : "s");

@@ -23,7 +23,7 @@ typedef struct iccp_elastic_report {
     double mirrored; /* how many times better the mirror image fits, compared as for `sure`; or 0 */
 } iccp_elastic_report;
 
-/* How many times better one cost is than another. */
+/* Returns how many times better `cost` is than `other`. Costs near 0 count as equal. */
 double iccp_elastic_better(double cost, double other);
 
 /* Searches all starts. `knots` has room for 2 N + 1 pairs. */

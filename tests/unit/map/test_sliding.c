@@ -311,6 +311,54 @@ START_TEST(ties)
 }
 END_TEST
 
+static icc_domain *with_circle(const plan *p, double x, double y, double radius)
+{
+    const double point[2] = {x, y};
+    const icc_feature features[2] = {{.size = sizeof *features,
+                                      .kind = ICC_FEATURE_LINE,
+                                      .n_vertices = p->feature[0].n,
+                                      .vertices = p->xy + 2 * p->n_outer},
+                                     {.size = sizeof *features,
+                                      .kind = ICC_FEATURE_POINT,
+                                      .n_vertices = 1,
+                                      .vertices = point,
+                                      .radius = radius}};
+    icc_domain *domain;
+    ck_assert_int_eq(
+        icc_domain_create_features(&domain, p->n_outer, p->xy, 2, features, NULL, NULL), ICC_OK);
+    return domain;
+}
+
+/* The circle around a point does not turn, though it would if its vertices could slide. */
+START_TEST(circles)
+{
+    enum { CIRCLE = 6 + 13 + 1, N = CIRCLE + 16 };
+    pair p;
+    straight(&p);
+    const double turn[2] = {0.6, 0.8};
+    for (size_t v = 0; v < p.target.n_vertices; ++v) {
+        double *xy = p.target.xy + 2 * v, x = xy[0];
+        xy[0] = turn[0] * x - turn[1] * xy[1];
+        xy[1] = turn[1] * x + turn[0] * xy[1];
+    }
+    icc_domain *d[2] = {
+        with_circle(&p.source, 2, 3, 0.5),
+        with_circle(&p.target, 2 * turn[0] - 3 * turn[1], 2 * turn[1] + 3 * turn[0], 0.5)};
+    icc_map *map = map_of(d[0], d[1], ICC_SLIDE_ALL);
+    double xy[2][2 * N], to[2 * N];
+    for (int k = 0; k < 2; ++k)
+        ck_assert_int_eq(icc_domain_get_boundary(d[k], xy[k], NULL), ICC_OK);
+    ck_assert_uint_gt(info_of_map(map).n_slid, 0);
+    ck_assert_uint_le(info_of_map(map).n_slid, p.row.n - 2);
+    ck_assert_int_eq(icc_map_apply(map, N, xy[0], to, NULL, NULL, NULL), ICC_OK);
+    for (size_t k = 2 * CIRCLE; k < 2 * N; ++k)
+        ck_assert_double_eq_tol(to[k], xy[1][k], 1e-13);
+    icc_map_free(map);
+    icc_domain_free(d[0]);
+    icc_domain_free(d[1]);
+}
+END_TEST
+
 START_TEST(threads)
 {
     pair p;
@@ -416,6 +464,7 @@ int main(void)
     tcase_add_loop_test(tests, maps_that_stay, 0, N_PAIRS);
     tcase_add_test(tests, boundaries);
     tcase_add_test(tests, ties);
+    tcase_add_test(tests, circles);
     tcase_add_loop_test(tests, threads, 0, N_PAIRS);
     tcase_add_test(tests, failures);
     tcase_add_test(tests, bytes_made_up);
