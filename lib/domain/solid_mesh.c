@@ -200,7 +200,7 @@ static bool follow_segment(const check *c, edge_chain *chain, uint32_t a, uint32
         if (!(p->share > share && p->share < 1) || p->point < mesh->n_boundary ||
             p->point >= mesh->n_points || c->used[p->point])
             return false;
-        iccp_on_line_place(&c->solid->frame, mesh->points + 3 * (size_t)a,
+        iccp_frame_between(&c->solid->frame, mesh->points + 3 * (size_t)a,
                            mesh->points + 3 * (size_t)b, p->share, place);
         for (size_t k = 0; k < 3; ++k)
             if (place[k] != mesh->points[3 * (size_t)p->point + k])

@@ -18,7 +18,7 @@
  * - each facet of a region is a face between the regions that features->sides names, and all other
  *   inner faces lie within one region
  * - each segment of a line is a chain of edges of the mesh. The points on it, in the order of
- *   on_line[], have rising shares and are where iccp_on_line_place() puts them.
+ *   on_line[], have rising shares and are where iccp_frame_between() puts them.
  * So the mesh fills the solid and does not overlap, whatever its handles and voids. */
 icc_status iccp_domain_create_solid_mesh(icc_domain **out, const icc_domain *solid,
                                          iccp_simplices *mesh, const iccp_env *env, icc_error *err);

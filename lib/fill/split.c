@@ -138,7 +138,7 @@ static void round_point(iccp_points *points)
 {
     iccp_dyadic *const d = &points->dyadic[points->n_dyadic - 1];
     d->share[0] = 0.0;
-    iccp_on_line_place(points->frame, iccp_point(points, d->of[0]), iccp_point(points, d->of[1]),
+    iccp_frame_between(points->frame, iccp_point(points, d->of[0]), iccp_point(points, d->of[1]),
                        d->share[1], points->x + 3 * (points->n - 1));
 }
 

@@ -182,3 +182,11 @@ void iccp_frame_snap(const iccp_frame *frame, int32_t dim, double *local)
         if (fabs(local[k]) < ICCP_FRAME_SMALLEST)
             local[k] = 0.0;
 }
+
+void iccp_frame_between(const iccp_frame *frame, const double *a, const double *b, double share,
+                        double *place)
+{
+    for (int k = 0; k < 3; ++k)
+        place[k] = share <= 0.5 ? a[k] + share * (b[k] - a[k]) : b[k] + (1 - share) * (a[k] - b[k]);
+    iccp_frame_snap(frame, 3, place);
+}

@@ -74,6 +74,11 @@ static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const do
  * coordinates and back, and that the predicates are exact for. */
 void iccp_frame_snap(const iccp_frame *frame, int32_t dim, double *local);
 
+/* Computes the place between two local points in space, at a share of the way from a to b. It is
+ * exact at both ends. Between, it is snapped as iccp_frame_snap() does. */
+void iccp_frame_between(const iccp_frame *frame, const double *a, const double *b, double share,
+                        double *place);
+
 /* Converts n points from the local coordinates of `from` to those of `to`. If shapes of the two
  * differ by a factor of 16 in size or lie 16 sizes apart, the difference counts as a motion of its
  * own: the points keep their local coordinates. */

@@ -13,14 +13,6 @@ const char *iccp_simplices_facet(size_t dim)
     return dim == 2 ? "edge" : dim == 3 ? "face" : "facet";
 }
 
-void iccp_on_line_place(const iccp_frame *frame, const double *a, const double *b, double share,
-                        double *place)
-{
-    for (int k = 0; k < 3; ++k)
-        place[k] = share <= 0.5 ? a[k] + share * (b[k] - a[k]) : b[k] + (1 - share) * (a[k] - b[k]);
-    iccp_frame_snap(frame, 3, place);
-}
-
 void iccp_simplices_free(iccp_simplices *mesh)
 {
     if (mesh == NULL)

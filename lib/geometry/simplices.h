@@ -46,12 +46,6 @@ typedef struct iccp_simplices {
 
 void iccp_simplices_free(iccp_simplices *mesh);
 
-/* Computes the place of a point on a line from the local coordinates of a and b, in space. It is
- * exact at both ends. Between, it is rounded so that it is the same after conversion to the
- * caller's coordinates and back. */
-void iccp_on_line_place(const iccp_frame *frame, const double *a, const double *b, double share,
-                        double *place);
-
 /* Copies a mesh without the caller's numbers. */
 icc_status iccp_simplices_copy(iccp_simplices **out, const iccp_simplices *mesh,
                                const iccp_memory *memory);

@@ -334,6 +334,9 @@ static icc_status create_solid(icc_map **out, const icc_domain *source, const ic
     icc_status status = iccp_fill_side(&filled, source, 0, &part[0], err);
     if (status == ICC_OK)
         status = iccp_solid_has_map(&filled_target, filled, target, &part[1], err);
+    /* A mesh has no vertices but those of its simplices. */
+    if (status == ICC_OK && filled_target == NULL && filled->n_vertices != target->n_vertices)
+        status = iccp_fill_side(&filled_target, target, 1, &part[1], err);
     if (status == ICC_OK)
         status = create_of_kind(out, filled, filled_target != NULL ? filled_target : target, NULL,
                                 &iccp_solid_kind, options, n_left, &part[2], err);

@@ -17,19 +17,22 @@ fill() {
 fill corners.txt '0.5 0.5 0.5' >in.mesh
 fill moved.txt '0.55 0.6 0.55' >out.mesh
 
-# All tetrahedra meet at the maximum, so the map is linear in each, unless it is improved.
+# All tetrahedra meet at one point inside. So the map is linear in each, and before it is improved the image of that point
+# is the harmonic one.
 printf '0.75 0.75 0.75\n0.5 0.5 0.5\n0.25 0.5 0.5\n0 0 0\n1 1 1\n' >points
-printf '1.025 0.925 0.775\n0.55 0.6 0.55\n0.275 0.6125 0.525\n0 0 0\n1.5 1.25 1\n' >expected
+printf '1 0.9375 0.7708333333333334\n0.5 0.625 0.5416666666666667\n0.25 0.625 0.5208333333333334\n0 0 0\n1.5 1.25 1\n' >expected
 run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh --improve 0 -p points -o images
 close_to images expected 1e-15
 run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh --improve 0 --inverse -p images -o back
 close_to back points 1e-15
-run 0 check -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh
+run 0 check -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh -m foliation
 holds out 'foliation chart certified: 12 tetrahedra, none of them inverted; every leaf runs from the boundary to the maximum'
 holds out 'map: mesh, certified one-to-one: all 12 tetrahedra keep'
 run 0 check -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh --map curves
 holds out 'map: curves, certified one-to-one'
-run 0 info -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh
+run 0 check -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh
+holds out 'map: mesh, certified one-to-one: all 12 tetrahedra keep'
+run 0 info -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh -m foliation
 holds out 'mesh        9 vertices, 8 of them on the boundary, 12 tetrahedra'
 holds out 'maximum     0.5 0.5 0.5'
 holds out '; 2 complete ones to choose from'

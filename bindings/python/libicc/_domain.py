@@ -93,7 +93,7 @@ class Domain(Handle):
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         regions, holes, lines = list(regions), list(holes), list(parts_of(lines) if is_geometry(lines) else lines)
         voids, surfaces = list(voids), list(surfaces)
-        if facets is not None and np.ndim(vertices) == 2 and np.shape(vertices)[1] == 3:
+        if facets is not None and vertices is not None and np.ndim(vertices) == 2 and np.shape(vertices)[1] == 3:
             own_solid = solid_features(voids, surfaces, lines, points)
             if features is not None:
                 if own_solid:

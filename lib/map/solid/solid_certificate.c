@@ -19,7 +19,7 @@ static bool has_fixed(const iccp_solid_map *map, const icc_domain *target)
     for (size_t k = 0; k < mesh->n_on_lines && all; ++k) {
         const iccp_on_line *p = &mesh->on_line[k];
         double place[3];
-        iccp_on_line_place(&target->frame, target->vertices + 3 * (size_t)p->a,
+        iccp_frame_between(&target->frame, target->vertices + 3 * (size_t)p->a,
                            target->vertices + 3 * (size_t)p->b, p->share, place);
         all = memcmp(map->images + 3 * (size_t)p->point, place, sizeof place) == 0;
     }

@@ -97,7 +97,7 @@ static void place(const void *map, const icc_domain *target, size_t point, doubl
         return;
     }
     const iccp_on_line *p = &mesh->on_line[point - mesh->n_boundary];
-    iccp_on_line_place(&target->frame, target->vertices + 3 * (size_t)p->a,
+    iccp_frame_between(&target->frame, target->vertices + 3 * (size_t)p->a,
                        target->vertices + 3 * (size_t)p->b, p->share, place);
 }
 

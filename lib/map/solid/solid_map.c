@@ -35,7 +35,7 @@ void iccp_solid_place_fixed(const iccp_simplices *mesh, const icc_domain *target
     memcpy(images, target->vertices, 3 * mesh->n_boundary * sizeof *images);
     for (size_t k = 0; k < mesh->n_on_lines; ++k) {
         const iccp_on_line *p = &mesh->on_line[k];
-        iccp_on_line_place(&target->frame, target->vertices + 3 * (size_t)p->a,
+        iccp_frame_between(&target->frame, target->vertices + 3 * (size_t)p->a,
                            target->vertices + 3 * (size_t)p->b, p->share,
                            images + 3 * (size_t)p->point);
     }
