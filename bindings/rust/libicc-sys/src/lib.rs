@@ -1488,9 +1488,13 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Fills a closed surface in 3-D with tetrahedra. The result is a domain with a mesh, as
-    /// `icc_domain_create_mesh()` makes it. Its vertices and facets are those of the surface, bit for bit.
+    /// Fills a domain in 3-D with tetrahedra, which leave out its voids. The result is a domain with a mesh,
+    /// as `icc_domain_create_mesh()` makes it. Its vertices and facets are those of the surface, bit for bit.
     /// New vertices are added inside only. Vertices that belong to no facet are left out.
+    ///
+    /// The mesh keeps what `icc_domain_create_solid()` put inside. Points are vertices, inner surfaces
+    /// consist of faces, and lines of edges, with new vertices on the lines where they need some.
+    /// `icc_domain_get_regions()` tells the part of each tetrahedron.
     ///
     /// Every decision about the mesh is exact, and the result passes the checks of
     /// `icc_domain_create_mesh()`. It has the same bits on every machine. There is no guarantee that every
