@@ -20,6 +20,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 import libicc
+import solids
 from libicc import stages
 
 matplotlib.use("Agg")
@@ -32,6 +33,7 @@ from matplotlib.textpath import TextPath                        # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection         # noqa: E402
 
 TOP = Path(__file__).resolve().parents[2]
+sys.path.append(str(TOP / "examples"))
 INK, SHAPE, RED = "#334455", "#e8eef6", "#dd2222"
 
 
@@ -471,6 +473,119 @@ def two_surveys():
     return figure
 
 
+TISSUE, LUNG, HEART, BONE, MARK, TUMOUR = "#f7e3d3", "#efb0a6", "#c9463d", "#efe6cf", "#2a6bb5", "#4b2a86"
+
+
+def smooth(pictures, gap=80):
+    """Pictures as arrays side by side, at half their size."""
+    space = np.ones((len(pictures[0]), gap, 3))
+    row = np.hstack([part for picture in pictures for part in (picture, space)][:-1])
+    picture = Image.fromarray((255 * row).astype(np.uint8))
+    return picture.resize((picture.width // 2, picture.height // 2), Image.LANCZOS)
+
+
+def torso():
+    """The body of the page as if its skin were of glass, before and after."""
+    page = names_of("tutorials/solid-inside.md", 1)
+    ball, faces = sys.modules["torso"].ball(2)
+    rgb = matplotlib.colors.to_rgb
+    bodies = page.before, page.after
+    places = np.vstack([body["skin"][0] for body in bodies])
+    pictures, eyes = [], []
+    for body in bodies:
+        shown = np.vstack([body["skin"][0], [[0, 0, places[:, 2].max()]]])     # so both have the same scale
+        eye = solids.Eye((-.25, -1, .14), shown, 1500)
+        things = [(rgb(paint), (*organ, solids.normals_of(*organ)))
+                  for paint, organ in zip((LUNG, LUNG, HEART), body["organs"])]
+        things += [(rgb(BONE), solids.tube(body["spine"], .9))]
+        things += [(rgb(MARK), (place + .75 * ball, faces, ball)) for place in body["landmarks"]]
+        pictures.append(solids.glass(eye, body["skin"], things))
+        eyes.append(eye)
+    picture = smooth(pictures, 160)
+    figure = plt.figure(figsize=(picture.width / 100, picture.height / 100), dpi=100)
+    ax = figure.add_axes([0, 0, 1, 1])
+    ax.imshow(picture)
+    ax.set_axis_off()
+    label_organs(ax, eyes[0], page.before)
+    figure.canvas.draw()
+    shades = np.asarray(figure.canvas.buffer_rgba())[..., :3] / 2          # a few hundred colours would show steps
+    return Image.fromarray(np.minimum(2 * np.round(shades), 255).astype(np.uint8))
+
+
+def label_organs(ax, eye, body):
+    """Names on the organs, and beside the spine and a landmark."""
+    for organ, name, colour in zip(body["organs"], ("lung", "lung", "heart"), ("#5a1f1a", "#5a1f1a", "white")):
+        place = organ[0].mean(axis=0) + [0, 0, 2.5 * (name == "lung")]
+        ax.text(*eye.flat(place)[0] / 2, name, fontsize=17, color=colour, ha="center", va="center")
+    for place, name, off in ((body["spine"][2], "spine", (46, 0)), (body["landmarks"][4], "landmark", (0, 24))):
+        ax.text(*(eye.flat(place)[0] / 2 + off), name, fontsize=17, color="#222222", ha="center", va="center")
+
+
+def torso_cut():
+    """The body of the page cut from side to side, with a grid of the body before."""
+    page = names_of("tutorials/solid-inside.md", 3)
+    organs = [libicc.Domain(*organ) for organ in page.before["organs"]]
+    figure, axes = plt.subplots(1, 2, figsize=(10, 6.4), width_ratios=[40, 48])
+
+    def stay(places):
+        return np.where((page.source.locate(places) == libicc.OUTSIDE)[:, None], np.nan, places)
+    for ax, body, outline, to_source in zip(axes, (page.before, page.after), (page.tumour, page.moved),
+                                            (stay, page.m.apply_inverse)):
+        (left, _, low), (right, _, high) = body["skin"][0].min(0) - 1, body["skin"][0].max(0) + 1
+        x, z = np.meshgrid(np.linspace(left, right, 900), np.linspace(low, high, 1200))
+        source = to_source(np.column_stack([x.ravel(), np.full(x.size, -2.), z.ravel()]))
+        nowhere = np.isnan(source).any(axis=1)
+        source[nowhere] = [0, 0, -100]
+        colours = np.tile(matplotlib.colors.to_rgb(TISSUE), (len(source), 1))
+        for organ, colour in zip(organs, (LUNG, LUNG, HEART)):
+            colours[organ.locate(source) == libicc.INSIDE] = matplotlib.colors.to_rgb(colour)
+        colours *= 1 - .07 * (np.floor(source[:, ::2] / 3).sum(axis=1) % 2)[:, None]
+        colours[nowhere] = 1
+        ax.imshow(colours.reshape(*x.shape, 3), extent=(left, right, low, high), origin="lower", interpolation="antialiased")
+        source[nowhere] = np.nan
+        for values in source[:, ::2].T:
+            ax.contour(x, z, values.reshape(x.shape), np.arange(-30, 70, 3), colors="#5b4a44", linewidths=.7,
+                       linestyles="solid", alpha=.7)
+        for surface, colour in ((body["skin"], "#7a6250"), *((organ, "#7c2320") for organ in body["organs"]),
+                                ((outline, page.faces), TUMOUR)):
+            cut = solids.section(*surface, 1, -2.000001)[..., ::2]
+            ax.add_collection(LineCollection(cut, colors=colour, linewidths=2.6 if colour == TUMOUR else 1.6, capstyle="round"))
+        ax.set_axis_off()
+        ax.set(xlim=(left, right), ylim=(-1, 65), aspect="equal")
+    axes[0].annotate("tumour", page.tumour.mean(0)[::2] + [-1.5, 1.7], (-16, 58), fontsize=16, ha="center", color=TUMOUR,
+                     arrowprops={"arrowstyle": "-", "color": TUMOUR, "lw": 1.4})
+    figure.subplots_adjust(0, 0, 1, 1, .02)
+    return figure_picture(figure)
+
+
+STEEL, GREY, ORANGE, AIR = (.58, .70, .83), (.45, .55, .67), (.93, .45, .16), (.82, .89, .96)
+
+
+def bracket():
+    """The bracket of the page before and after. The walls of the hole that moves are orange."""
+    page = names_of("howto/solid-parts.md", 1)
+    vertices, faces = page.part
+    middle = vertices[faces[:, 0]]
+    across = np.ptp(vertices[faces][:, :, 0], axis=1) > .9          # from the front of the upright to its back
+    within = (abs(middle[:, 1] - 6) < 5) & (abs(middle[:, 2] - 9.6) < 3)
+    paints = np.where((across & within)[:, None], ORANGE, STEEL)
+    eye = solids.Eye((-1, -.75, .6), vertices, 1200)
+    return smooth([solids.facets(eye, places, faces, paints, 1.6) for places in (vertices, page.wanted[0])]).quantize(255)
+
+
+def wing():
+    """Half of the air of the page, with the wing, before and after."""
+    page = names_of("howto/solid-parts.md", 3)
+    n_box, n_wing = len(page.box()[0]), len(page.wing()[0])
+    faces = solids.skin_of(page.tetrahedra[page.rest[page.tetrahedra].mean(1)[:, 1] > 0])
+    faces = faces[~((faces >= n_box) & (faces < n_box + n_wing)).all(axis=1)]
+    walls = page.wing()[1] + n_box
+    paints = [*np.where((faces < n_box).all(axis=1)[:, None], GREY, AIR), *np.tile(ORANGE, (len(walls), 1))]
+    faces = np.concatenate([faces, walls])
+    eye = solids.Eye((-.4, -1, .35), page.rest[np.unique(faces)], 1200)
+    return smooth([solids.facets(eye, places, faces, paints, 1.6) for places in (page.rest, page.turned)]).quantize(255)
+
+
 def grid_lines(n):
     """Lines of a grid of n x n cells: finely sampled places, and the numbers of their vertices."""
     fine, k = np.linspace(0, n, 8 * n + 1), np.arange(n + 1)
@@ -482,7 +597,8 @@ def grid_lines(n):
 PICTURES = {"control-points": control_points, "puppet": puppet, "moving-mesh": moving_mesh, "certify": certify,
             "fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
             "matched": matched, "glyphs": glyphs, "letters": letters, "states": states, "two-surveys": two_surveys,
-            "stages": stages_of_the_papers, "mesh": mesh}
+            "stages": stages_of_the_papers, "mesh": mesh, "torso": torso, "torso-cut": torso_cut, "bracket": bracket,
+            "wing": wing}
 
 
 def main():
