@@ -21,7 +21,7 @@ typedef struct geo_layer {
     uint32_t *node; /* of each position */
     size_t n_nodes;
     double *nodes; /* 2 n_nodes, sorted by x, then by y */
-    /* Of each node: its image, the status of mapping it, and whether it was snapped first. */
+    /* Of each node: its image, the status of its mapping, and whether it was snapped before */
     double *images;
     icc_status *status;
     bool *snapped;

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What is reported if no shapes are compared. */
+/* The report of a pairing that compares no shapes. */
 static const iccp_elastic_report none = {.cost = HUGE_VAL, .second = HUGE_VAL, .sure = HUGE_VAL};
 
 double iccp_least_sure(const icc_match_options *options)
