@@ -130,7 +130,9 @@ static const char *comment_value(const char *text, const char *name)
 /* The column with this name in the list of columns, or `otherwise`. */
 static size_t find_column(const char *list, const char *name, size_t otherwise)
 {
-    const char *end = list + (list != NULL ? strcspn(list, "\r\n") : 0);
+    if (list == NULL)
+        return otherwise;
+    const char *end = list + strcspn(list, "\r\n");
     size_t i = 0;
     for (const char *p = list; p != NULL; i++) {
         cell c;

@@ -158,7 +158,8 @@ static icc_status cut_out(iccp_moving_part *part, const search *s, const iccp_en
         take_vertices(part, whole, mark, false, number);
         take_triangles(part, s, number, number + whole->n_vertices);
         part->n_triangles = n;
-        memcpy(part->corners, part->map.corners.vertex, 3 * n * sizeof *part->corners);
+        if (n > 0)
+            memcpy(part->corners, part->map.corners.vertex, 3 * n * sizeof *part->corners);
     }
     iccp_free(memory, number);
     iccp_free(memory, mark);
