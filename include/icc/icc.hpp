@@ -41,9 +41,32 @@ template <class C> inline constexpr bool is_view = false;
 /** True for icc::view itself. */
 template <class T> inline constexpr bool is_view<view<T>> = true;
 
-/** Whether E is a `std::array` of T: a point, the vertices of a facet. */
-template <class E, class T> inline constexpr bool is_row = false;
-template <class T, std::size_t N> inline constexpr bool is_row<std::array<T, N>, T> = true;
+/** How many T an E consists of, in the order in which they lie in memory: a point, the vertices of a
+ *  facet. 0: an E is something else. Known are `std::array`, structs of x and y, or of x, y and z, such as
+ *  glm's, and Eigen's vectors of fixed size. For a type of your own, tell it once:
+ *
+ *      template <> inline constexpr std::size_t icc::row_length<my_point, double> = 2; */
+template <class E, class T, class = void> inline constexpr std::size_t row_length = 0;
+template <class T, std::size_t N> inline constexpr std::size_t row_length<std::array<T, N>, T> = N;
+
+/** Whether E has a member z. */
+template <class E, class = void> inline constexpr bool has_z = false;
+template <class E> inline constexpr bool has_z<E, std::void_t<decltype(std::declval<E &>().z)>> = true;
+
+/** A struct of T whose members are x and y, or x, y and z, and nothing else. */
+template <class E, class T>
+inline constexpr std::size_t row_length<
+    E, T, std::enable_if_t<std::is_same_v<decltype(std::declval<E>().x), T> &&
+                           std::is_same_v<decltype(std::declval<E>().y), T> &&
+                           std::is_standard_layout_v<E>>> =
+    sizeof(E) == (has_z<E> ? 3 : 2) * sizeof(T) ? sizeof(E) / sizeof(T) : 0;
+
+/** A vector of Eigen whose size the compiler knows. */
+template <class E, class T>
+inline constexpr std::size_t row_length<
+    E, T, std::enable_if_t<std::is_same_v<typename E::Scalar, T> && (E::SizeAtCompileTime > 0) &&
+                           E::IsVectorAtCompileTime>> =
+    sizeof(E) == E::SizeAtCompileTime * sizeof(T) ? E::SizeAtCompileTime : 0;
 
 /** Whether C is a matrix that says how its numbers lie in memory, such as Eigen's. */
 template <class C, class = void> inline constexpr bool is_matrix = false;
@@ -53,14 +76,14 @@ inline constexpr bool is_matrix<C, std::void_t<decltype(std::declval<C &>().inne
                                                decltype(C::IsVectorAtCompileTime)>> = true;
 
 /** Contiguous elements that someone else owns: a vector, an array, a `std::span` or a list in
- *  braces. Elements may be `std::array`, such as `std::vector<std::array<double, 2>>` for points.
- *  You may also pass an Eigen matrix. Each column is a point (`Matrix<double, 2, Dynamic>`), or each
+ *  braces. Elements may be rows as icc::row_length knows them, such as `std::vector<std::array<double, 2>>`
+ *  or `std::vector<Eigen::Vector2d>` for points. You may also pass an Eigen matrix. Each column is a point (`Matrix<double, 2, Dynamic>`), or each
  *  row if it is RowMajor. The call refuses other layouts. */
 template <class T> class view {
     using value = std::remove_const_t<T>;
     template <class C> using element = std::remove_pointer_t<decltype(std::data(std::declval<C &>()))>;
     template <class E>
-    static constexpr bool holds = is_row<std::remove_const_t<E>, value> &&
+    static constexpr bool holds = row_length<std::remove_const_t<E>, value> != 0 &&
                                   (std::is_const_v<T> || !std::is_const_v<E>);
 
 public:
@@ -983,11 +1006,10 @@ public:
     }
 
     /** Likewise, for points of your own type. */
-    template <std::size_t N>
-    std::vector<std::array<double, N>> apply(const std::vector<std::array<double, N>> &points,
-                                             const env &e = {}) const
+    template <class Point, class Memory, class = std::enable_if_t<row_length<Point, double> != 0>>
+    std::vector<Point, Memory> apply(const std::vector<Point, Memory> &points, const env &e = {}) const
     {
-        std::vector<std::array<double, N>> images(points.size());
+        std::vector<Point, Memory> images(points.size());
         apply(points, images, e);
         return images;
     }
@@ -1014,11 +1036,11 @@ public:
     }
 
     /** Likewise, for points of your own type. */
-    template <std::size_t N>
-    std::vector<std::array<double, N>>
-    apply_inverse(const std::vector<std::array<double, N>> &points, const env &e = {}) const
+    template <class Point, class Memory, class = std::enable_if_t<row_length<Point, double> != 0>>
+    std::vector<Point, Memory> apply_inverse(const std::vector<Point, Memory> &points,
+                                             const env &e = {}) const
     {
-        std::vector<std::array<double, N>> images(points.size());
+        std::vector<Point, Memory> images(points.size());
         apply_inverse(points, images, e);
         return images;
     }

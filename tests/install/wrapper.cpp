@@ -247,6 +247,46 @@ void takes_rows()
           "a polygon of rows of another length");
 }
 
+struct xyz {
+    double x, y, z;
+};
+struct labelled {
+    double x, y;
+    int label;
+};
+class own_point {
+public:
+    own_point() = default;
+    own_point(double x, double y) : at_{x, y} {}
+    double first() const { return at_[0]; }
+
+private:
+    double at_[2] = {0, 0};
+};
+
+} // namespace
+
+template <> inline constexpr std::size_t icc::row_length<own_point, double> = 2;
+
+namespace {
+
+void takes_points_of_other_types()
+{
+    struct xy {
+        double x, y;
+    };
+    static_assert(icc::row_length<xyz, double> == 3 && icc::row_length<xyz, float> == 0, "x, y and z");
+    static_assert(icc::row_length<labelled, double> == 0 && icc::row_length<double, double> == 0, "more, and less");
+    const std::vector<xy> square{{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+    const icc::map map(icc::domain::polygon(square), target);
+    const std::vector<xy> images = map.apply(std::vector<xy>{{1, 1}, {2, 1.5}});
+    check(std::fabs(images[1].x - 4) < 1e-9 && std::fabs(map.apply_inverse(images)[0].y - 1) < 1e-9, "structs");
+    const std::vector<own_point> own{{1, 1}};
+    check(std::fabs(map.apply(own)[0].first() - 2) < 1e-9, "a class of one's own");
+    const std::vector<xyz> high{{1, 1, 1}};
+    check(thrown([&] { map.apply(high); }, none).status == ICC_ERR_ARGUMENT, "structs of another length");
+}
+
 void tells_statuses()
 {
     const icc::map map(source, target);
@@ -425,6 +465,8 @@ void takes_matrices()
     const Eigen::Vector2d one(1, 1);
     check(is_times(map.apply(one), 2, {1, 1}), "a vector");
     check(map.apply(points.leftCols(2)).size() == 4, "a block of whole columns");
+    const std::vector<Eigen::Vector2d> list{{1, 1}, {2, 1.5}};
+    check((map.apply(list)[1] - 2 * list[1]).norm() < 1e-9, "a vector of vectors");
 
     const Eigen::MatrixXd wrong = points.transpose(); // x of all points, then y of all
     check(thrown([&] { map.apply(wrong); }, none).status == ICC_ERR_ARGUMENT, "points in rows, column by column");
@@ -511,6 +553,7 @@ int main()
     warps();
     saves();
     takes_rows();
+    takes_points_of_other_types();
     tells_statuses();
     makes_maps_of_maps();
     asks_charts_and_domains();
