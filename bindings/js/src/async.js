@@ -1,6 +1,7 @@
 // The same classes over a worker: methods return promises instead of values.
 import { Handle } from './core.js';
 import { classesOf } from './instance.js';
+import { OBJECT } from './objects.js';
 import { Remote } from './remote.js';
 
 const FUNCTIONS = ['boundaryDefects', 'triangulate', 'statusName', 'codeOf'];
@@ -8,8 +9,15 @@ const FUNCTIONS = ['boundaryDefects', 'triangulate', 'statusName', 'codeOf'];
 // Node and browsers of before 2024 have no Symbol.dispose.
 const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 
+/** Browsers start workers of a page's own host only, so a file of another host is imported by one that the page makes. */
+function workerOf(url) {
+  if (url.origin === globalThis.location?.origin || url.protocol === 'file:') return new Worker(url, { type: 'module' });
+  const program = URL.createObjectURL(new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' }));
+  return new Worker(program, { type: 'module' });
+}
+
 async function workerBeside() {
-  if (typeof Worker !== 'undefined') return new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+  if (typeof Worker !== 'undefined') return workerOf(new URL('./worker.js', import.meta.url));
   const { Worker: NodeWorker } = await import('node:worker_threads');
   return new NodeWorker(new URL('./worker.js', import.meta.url));
 }
@@ -102,13 +110,13 @@ export class AsyncIcc {
   }
 
   #sent(value) {
-    if (value instanceof RemoteObject) return { object: value.numberFor(this) };
+    if (value instanceof RemoteObject) return { [OBJECT]: value.numberFor(this) };
     return Array.isArray(value) && value[0] instanceof RemoteObject ? value.map((v) => this.#sent(v)) : value;
   }
 
   #received(value, known) {
     if (value === null || typeof value !== 'object' || Object.getPrototypeOf(value) !== Object.prototype) return value;
-    const { object, name } = value;
+    const { [OBJECT]: object, name } = value;
     if (object === undefined)
       return Object.fromEntries(Object.entries(value).map(([key, member]) => [key, this.#received(member, known)]));
     if (known.self && known.object === object) return known.self;

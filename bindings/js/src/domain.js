@@ -1,6 +1,7 @@
 // Domains: a boundary and what it encloses. See icc_domain_create() and the functions after it.
 import { Handle } from './core.js';
 import { IccError } from './error.js';
+import { isGeoJson, shapeOf } from './geojson.js';
 import { constantNames } from './names.js';
 import { exactly, flat, indices, meshOf, ring, sidesOf, whole } from './points.js';
 
@@ -69,8 +70,14 @@ export function domainOf(core) {
       super(core, address, none, 'icc_domain_free', lender);
     }
 
-    /** A simple polygon with features: { regions, holes, lines, points, radii }. The outline may be null if there are regions. */
+    /** A simple polygon with features: { regions, holes, lines, points, radii }. The outline may be null if there are
+     *  regions. It may be a polygon of GeoJSON, which has holes and regions of its own; given ones come after them. */
     static polygon(outline, features = {}) {
+      if (isGeoJson(outline)) {
+        const { outline: outer, regions, holes } = shapeOf(outline);
+        return Domain.polygon(outer, { ...features, regions: [...regions, ...features.regions ?? []],
+          holes: [...holes, ...features.holes ?? []] });
+      }
       const outer = outline === null ? new Float64Array() : ring(outline);
       const inside = featuresOf(features);
       return new Domain(inside.length === 0

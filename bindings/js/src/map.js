@@ -1,6 +1,7 @@
 // Maps from one domain to another. See icc_map_create().
 import { Handle, optional, room } from './core.js';
 import { withDomains } from './domain.js';
+import { moved } from './geojson.js';
 import { Address } from './memory.js';
 import { exactly, flat, indices, meshOf, whole, withPoint } from './points.js';
 
@@ -105,6 +106,11 @@ export function mapOf(core, Domain, Chart) {
     /** Maps points from the target to the source. */
     inverse(images, { out, status = null } = {}) {
       return this.#points('icc_map_apply_inverse', images, out, status, 1);
+    }
+
+    /** An object of GeoJSON with its positions mapped; options { segment, inverse }. See geojson.js. */
+    geojson(object, { segment, inverse = false } = {}) {
+      return moved(object, (points) => (inverse ? this.inverse(points) : this.apply(points)), segment);
     }
 
     /** Derivatives at points, dim * dim numbers each. */

@@ -1,6 +1,9 @@
 // The operations behind async.js: the classes of an instance, and objects by number.
 import { Handle } from './core.js';
 
+/** The member of a value that is sent in place of an object. Values of users do not have it. */
+export const OBJECT = 'libicc:object';
+
 const isPlain = (value) => value !== null && typeof value === 'object' && Object.getPrototypeOf(value) === Object.prototype;
 const mapped = (object, f) => Object.fromEntries(Object.entries(object).map(([key, value]) => [key, f(value)]));
 
@@ -19,7 +22,7 @@ export function objectOperations(icc) {
   /** Prepares a value for sending: objects, also those among the members of a plain one, become numbers. */
   function sent(value) {
     if (value instanceof Handle || value instanceof icc.Pose)
-      return { object: numberOf(value), name: value.constructor.name };
+      return { [OBJECT]: numberOf(value), name: value.constructor.name };
     return isPlain(value) ? mapped(value, sent) : value;
   }
 
@@ -30,8 +33,8 @@ export function objectOperations(icc) {
   }
 
   const got = (value) => {
-    if (isPlain(value) && value.object !== undefined) return objectOf(value.object);
-    return Array.isArray(value) && isPlain(value[0]) && value[0].object !== undefined ? value.map(got) : value;
+    if (isPlain(value) && value[OBJECT] !== undefined) return objectOf(value[OBJECT]);
+    return Array.isArray(value) && isPlain(value[0]) && value[0][OBJECT] !== undefined ? value.map(got) : value;
   };
   const kept = (value) => (ArrayBuffer.isView(value) ? value.slice() : value);
 

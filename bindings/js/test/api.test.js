@@ -263,6 +263,84 @@ test('features go to their places', () => {
   assert.equal(new icc.Map(inside(1), inside(3), { ties: map.ties() }).info.classKept, 1);
 });
 
+const ringOf = (points) => [...points, points[0]];
+const featureOf = (geometry, properties = {}) => ({ type: 'Feature', properties, geometry });
+const polygonOf = (...rings) => ({ type: 'Polygon', coordinates: rings.map(ringOf) });
+
+test('polygons of GeoJSON are shapes', () => {
+  const before = featureOf(polygonOf(SQUARE)), after = { type: 'FeatureCollection', features: [featureOf(polygonOf(LEANING))] };
+  const wanted = new icc.Map(SQUARE, LEANING).apply([[1, 1]]);
+  assert.deepEqual(new icc.Map(before, after).apply([[1, 1]]), wanted);
+  assert.deepEqual(new icc.Map(before.geometry, after).apply([[1, 1]]), wanted);
+  const hole = [[1, 1], [2, 1], [2, 2], [1, 2]], withHole = icc.Domain.polygon(polygonOf(SQUARE, hole), { points: [[3, 3]] });
+  assert.deepEqual(withHole.features().map(({ kind }) => kind), ['hole', 'point']);
+  const away = SQUARE.map(([x, y]) => [x + 9, y, 7]);
+  const parts = icc.Domain.polygon({ type: 'MultiPolygon', coordinates: [[ringOf(SQUARE), ringOf(hole)], [ringOf(away)]] });
+  assert.equal(parts.info.measure, 31);
+  assert.throws(() => icc.Domain.polygon({ type: 'Point', coordinates: [1, 1] }), /not Point/);
+  assert.throws(() => icc.Domain.polygon(featureOf(null)), /without a geometry/);
+  assert.throws(() => new icc.Map({ type: 'FeatureCollection', features: [before, before] }, after), /has 2; pass one/);
+});
+
+test('objects of GeoJSON are mapped, there and back', () => {
+  const map = new icc.Map(SQUARE, SQUARE.map(([x, y]) => [2 * x, y]));
+  const line = { type: 'LineString', coordinates: [[1, 1, 50], [3, 1, 60]] };
+  const layer = {
+    type: 'FeatureCollection', name: 'layer', bbox: [0, 0, 4, 4],
+    features: [featureOf(line, { id: 1 }), featureOf(polygonOf(SQUARE)), featureOf({ type: 'Point', coordinates: [9, 9] }), featureOf(null),
+      featureOf({ type: 'GeometryCollection', geometries: [{ type: 'MultiPoint', coordinates: [[1, 1], [2, 3]] }, line] })],
+  };
+  const text = JSON.stringify(layer), images = map.geojson(layer);
+  assert.equal(JSON.stringify(layer), text);
+  assert.deepEqual([images.name, images.bbox, images.features[0].properties], ['layer', undefined, { id: 1 }]);
+  near(images.features[0].geometry.coordinates.flat(), [2, 1, 50, 6, 1, 60]);
+  assert.deepEqual(images.features[1].geometry.coordinates[0][0], images.features[1].geometry.coordinates[0][4]);
+  assert.deepEqual(images.features.slice(2, 4).map(({ geometry }) => geometry), [null, null]);
+  near(images.features[4].geometry.geometries[0].coordinates.flat(), [2, 1, 4, 3]);
+  near(map.geojson(images, { inverse: true }).features[0].geometry.coordinates.flat(), [1, 1, 50, 3, 1, 60]);
+  near(map.geojson(line, { segment: 1 }).coordinates.flat(), [2, 1, 50, 4, 1, 55, 6, 1, 60]);
+  assert.equal(map.geojson({ type: 'MultiPoint', coordinates: [[1, 1], [3, 1]] }, { segment: 0.1 }).coordinates.length, 2);
+  assert.equal(map.geojson({ type: 'Point', coordinates: [9, 9] }), null);
+  assert.throws(() => map.geojson([[1, 1]]), /no object of GeoJSON/);
+  assert.throws(() => map.geojson({ type: 'Circle', coordinates: [1, 1] }), /'Circle' is no type/);
+  assert.throws(() => map.geojson(line, { segment: 0 }), /segment is 0/);
+});
+
+/** A BufferGeometry as three.js has it: the faces of a cube do not share vertices. */
+function cubeGeometry() {
+  const corners = Array.from({ length: 8 }, (_, k) => [k & 1, (k >> 1) & 1, k >> 2]);
+  const faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+  const array = Float32Array.from(faces.flat().flatMap((k) => corners[k]));
+  const position = { itemSize: 3, count: 24, array, getX: (i) => array[3 * i], getY: (i) => array[3 * i + 1], getZ: (i) => array[3 * i + 2],
+    setXYZ: (i, ...at) => array.set(at, 3 * i) };
+  const list = faces.flatMap((_, f) => [0, 1, 2, 0, 2, 3].map((k) => 4 * f + k));
+  const geometry = { attributes: { position, normal: {} }, index: { count: 36, getX: (i) => list[i] }, normals: 0 };
+  geometry.computeVertexNormals = () => { geometry.normals += 1; };
+  return geometry;
+}
+
+test('meshes of three.js are surfaces, and bent', async () => {
+  const { surfaceOf, bend } = await at('three.js'), geometry = cubeGeometry();
+  const { vertices, facets } = surfaceOf(geometry);
+  assert.deepEqual([vertices.length, facets.length], [24, 36]);
+  const map = new icc.Map(icc.Domain.surface(vertices, facets), icc.Domain.surface(vertices.map((v) => 2 * v), facets));
+  assert.equal(bend(geometry, map), 0);
+  assert.deepEqual([Math.max(...geometry.attributes.position.array), geometry.normals, geometry.attributes.position.needsUpdate], [2, 1, true]);
+  assert.ok(bend(geometry, map) > 0, 'the corners are outside now');
+  assert.throws(() => surfaceOf({ attributes: {} }), /no BufferGeometry/);
+});
+
+test('a canvas shows a warped picture', async () => {
+  const { drawWarped } = await at('canvas.js');
+  const data = Uint8ClampedArray.from({ length: 64 }, (_, i) => (i % 4 === 3 ? 255 : 3 * i));
+  let shown = null;
+  globalThis.ImageData = class { constructor(width, height) { Object.assign(this, { width, height, data: new Uint8ClampedArray(4 * width * height) }); } };
+  drawWarped({ width: 4, height: 4, getContext: () => ({ putImageData: (image) => { shown = image; } }) },
+    new icc.Map(SQUARE, SQUARE), { width: 4, height: 4, data });
+  delete globalThis.ImageData;
+  assert.deepEqual(shown.data, data);
+});
+
 test('a picture is warped; the identity copies it', () => {
   const data = Uint8ClampedArray.from({ length: 64 }, (_, i) => (i % 4 === 3 ? 255 : 3 * i));
   const source = { width: 4, height: 4, data };

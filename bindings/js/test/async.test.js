@@ -144,6 +144,15 @@ test('a call in a worker is watched, and stopped', async () => {
   far.close();
 });
 
+test('GeoJSON goes there and back, whatever its properties are called', async () => {
+  const icc = await AsyncIcc.start(), ring = [[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]];
+  const feature = { type: 'Feature', properties: { object: 1, name: 'Map' }, geometry: { type: 'Polygon', coordinates: [ring] } };
+  const map = await icc.Map.create(feature, feature), image = await map.geojson(feature);
+  assert.deepEqual(image.properties, feature.properties);
+  assert.equal(image.geometry.coordinates[0].length, 5);
+  icc.close();
+});
+
 test('operations of one’s own, on this thread', async () => {
   const remote = await Remote.start((own) => ({ area: ({ outline }) => own.Domain.polygon(outline).info.nVertices }));
   assert.equal(await remote.call('area', { outline: SQUARE }), 4);

@@ -74,8 +74,9 @@ export interface SolidFeatures {
   points?: readonly Points[];
 }
 export interface DomainClass {
-  /** A simple polygon, which may be a closed ring, with features. The outline may be null if there are regions. */
-  polygon(outline: Points | null, features?: Features): Domain;
+  /** A simple polygon, which may be a closed ring, with features. The outline may be null if there are regions. It may be a
+   *  polygon of GeoJSON, which has holes and regions of its own; given ones come after them. */
+  polygon(outline: Points | GeoJson | null, features?: Features): Domain;
   /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
   surface(vertices: Points, facets: Indices, dim?: number): Domain;
   /** A solid with voids, surfaces, lines and points inside. */
@@ -85,7 +86,10 @@ export interface DomainClass {
   /** A mask of cells: `shape` cells along the axes, the first axis fastest. */
   mask(shape: readonly number[], cells: Uint8Array): Domain;
 }
-export type ShapeLike = Domain | Points;
+/** An object of GeoJSON, such as a Feature. */
+export interface GeoJson { readonly type: string; readonly [member: string]: any }
+/** A shape: an outline, or a Polygon or MultiPolygon of GeoJSON, bare or as a Feature. */
+export type ShapeLike = Domain | Points | GeoJson;
 
 export interface Coordinates { facet: Uint32Array; bary: Float64Array; t: Float64Array }
 /** Coordinates of the inside of a domain: a boundary point and a share of the way to the maximum. */
@@ -201,6 +205,12 @@ export interface Map extends Handle {
   apply(points: Points, results?: Results): Float64Array;
   /** Maps points from the target to the source. A point without one gets NaN. */
   inverse(images: Points, results?: Results): Float64Array;
+  /**
+   * A geometry, Feature or FeatureCollection of GeoJSON with its positions mapped. Heights, properties and other members are
+   * kept; members `bbox` are left out. Lines get more positions where two are more than `segment` apart. A geometry with a position
+   * outside becomes null. Set `inverse` to map from the target to the source.
+   */
+  geojson<G extends GeoJson>(object: G, options?: { segment?: number; inverse?: boolean }): G;
   /** Derivatives at points, dim * dim numbers each. */
   jacobian(points: Points, results?: Results): Float64Array;
   /** Maps the vertices of a mesh, and checks whether the image is a valid mesh. */

@@ -105,6 +105,30 @@ for (const [name, headers] of [['plain', {}], ['isolated', ISOLATED]])
     }
   });
 
+/** What happens in a page of another host than the package's. */
+async function visit(host) {
+  const { AsyncIcc, load } = await import(`${host}/src/index.js`), { drawWarped } = await import(`${host}/src/canvas.js`);
+  const square = [[0, 0], [4, 0], [4, 4], [0, 4]], here = await load(), far = await AsyncIcc.start();
+  const [canvas, image] = [new OffscreenCanvas(4, 4), new OffscreenCanvas(4, 4)];
+  image.getContext('2d').fillRect(0, 0, 4, 4);
+  drawWarped(canvas, new here.Map(square, square), image);
+  const certified = await (await far.Map.create(square, square)).certified;
+  far.close();
+  return [certified, [...canvas.getContext('2d').getImageData(1, 1, 1, 1).data]];
+}
+
+test('the package comes from another host than the page', async () => {
+  const servers = [await serve({}), await serve({ 'Access-Control-Allow-Origin': '*' })], browser = await launch(CHROMIUM);
+  try {
+    const page = await browser.newPage(), [own, other] = servers.map((server) => `http://127.0.0.1:${server.address().port}`);
+    await page.goto(`${own}/page.html`);
+    assert.deepEqual(await page.evaluate(visit, other), [true, [0, 0, 0, 255]]);
+  } finally {
+    await browser.close();
+    servers.forEach((server) => server.close());
+  }
+});
+
 test('the page of the tutorial: its corner is dragged, and stays where the cage would cross itself', async () => {
   const [, html] = /^```html\n([^]*?)^```$/m.exec(fs.readFileSync(TUTORIAL, 'utf8'));
   const server = await serve({}, html), browser = await launch(CHROMIUM), wrong = [];

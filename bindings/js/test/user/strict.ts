@@ -1,6 +1,8 @@
 // What `tsc --strict` has to take of the package's types; compiled only.
 import { AsyncIcc, IccError, Remote, load, serve } from 'libicc';
-import type { Instance, MapOptions, WeightsInfo } from 'libicc';
+import type { Instance, Map as IccMap, MapOptions, WeightsInfo } from 'libicc';
+import { drawWarped, pixelsOf } from 'libicc/canvas';
+import { type Geometry, bend, surfaceOf } from 'libicc/three';
 
 const square: [number, number][] = [[0, 0], [4, 0], [4, 4], [0, 4]];
 
@@ -39,8 +41,10 @@ export async function near(): Promise<number> {
     square, { method: 'qp', edges: [[0, 1]], lines: [{ from: [0, 0], to: [4, 0] }] });
   const info: WeightsInfo = weights.withMethod('equality').info;
   const seconds: object = [weights.timings, new icc.Chart(square).timings];
+  const feature = { type: 'Feature', properties: { id: 1 }, geometry: { type: 'Polygon', coordinates: [[[0, 0], [1, 0], [0, 1], [0, 0]]] } };
+  const shown: number = new icc.Map(feature, feature.geometry).geojson(feature, { segment: 1 }).properties.id;
   const given: ImageData = map.warp(new ImageData(4, 4), new ImageData(8, 8));
-  if (seconds instanceof icc.IccError) return energy + changed + made + names.length + coverage.info.nNodes + info.nHandles + given.width + kind.length;
+  if (seconds instanceof icc.IccError) return energy + changed + made + names.length + coverage.info.nNodes + info.nHandles + shown + given.width + kind.length;
   return out[0]! + other.dim;
 }
 
@@ -63,6 +67,11 @@ export async function far(signal: AbortSignal): Promise<Float64Array | undefined
   shape.free();
   icc.close();
   return certified ? await moved?.apply(images) : t;
+}
+
+export function page(map: IccMap, canvas: HTMLCanvasElement, image: HTMLImageElement, geometry: Geometry): number {
+  drawWarped(canvas, map, image);
+  return bend(geometry, map) + surfaceOf(geometry).facets.length + pixelsOf(image).width;
 }
 
 export async function own(worker: Worker): Promise<void> {
