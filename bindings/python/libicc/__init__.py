@@ -3,7 +3,7 @@
     import libicc
     mapping = libicc.Map(before, after)      # two polygons, (n, 2) arrays
     images = mapping(points)                 # one-to-one, certified
-    points = mapping.inverse(images)
+    points = mapping.inverse(images)         # mapping.inverse is a map itself
 
 If you know only some points, ``libicc.fit(points, to)`` makes the map from them.
 

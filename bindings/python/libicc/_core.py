@@ -16,9 +16,10 @@ from ._errors import check, fail
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats, Indices
 
-Progress = Callable[[str, float], Any]
+Progress = Union[Callable[[str, float], Any], bool]
 """Called with the name of a stage and the share of the whole call that is done, which goes from 0 to 1 and never
-falls; returning true or raising cancels the call. `icc/base.h` lists the stages.
+falls; returning true or raising cancels the call. `icc/base.h` lists the stages. True: show a bar, by tqdm if it is
+installed.
 Every long call accepts one, and `threads`: how many it may use; None: one per processor."""
 
 _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
@@ -60,13 +61,18 @@ class Call:
         self._env = new("env", threads=_threads(threads), load_limit=limit)
         if _listener():
             self._env.log = ctypes.cast(_log, ctypes.c_void_p)
-        if progress is not None:
+        self._bar: Any = None
+        if progress is True:
+            from ._progress import Bar
+
+            progress = self._bar = Bar()
+        if progress:
             self._callback = _PROGRESS(self._report(progress))
             self._env.progress = ctypes.cast(self._callback, ctypes.c_void_p)
         self.env = ctypes.addressof(self._env)
         self.err = ctypes.addressof(self.error)
 
-    def _report(self, progress: Progress) -> Callable[[Any, bytes, float], int]:
+    def _report(self, progress: Any) -> Callable[[Any, bytes, float], int]:
         def report(_user: Any, stage: bytes, share: float) -> int:
             if self.raised is not None:
                 return 1
@@ -79,6 +85,8 @@ class Call:
         return report
 
     def check(self, status: int) -> None:
+        if self._bar is not None:
+            self._bar.close()
         if self.raised is not None:
             raise self.raised
         if status != 0:
@@ -114,8 +122,8 @@ def coordinates(shapes: Any) -> Floats:
     """The coordinates of points and lines one after the other."""
     for part in shapes:
         if hasattr(part, "exterior"):
-            raise TypeError("a polygon is no list of points; take the points of a ring, polygon.exterior, or map the "
-                            "polygon by geopandas: GeoSeries([polygon]).icc.map(mapping), after import libicc.geopandas")
+            raise TypeError("a polygon is no list of points; take the points of a ring, polygon.exterior, or call the map "
+                            "itself with the geometry: mapping(polygon)")
     arrays = [np.asarray(part.coords, dtype=np.float64) for part in shapes if len(part.coords) > 0]
     return np.concatenate(arrays) if arrays else np.empty((0, 2))
 

@@ -28,7 +28,7 @@ from ._core import (
     points_of,
 )
 from ._errors import blaming, check
-from ._solid import make_solid, solid_features, solid_features_in_order
+from ._solid import make_solid, solid_features, solid_features_in_order, split_quads, triangles_of
 
 if TYPE_CHECKING:
     from ._types import ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
@@ -39,6 +39,9 @@ DEFECTS = {"not finite": 1, "repeated": 2, "spike": 3, "crossing": 4, "touch": 5
 _MAX_DIM = 6
 _SHAPES = ("a Domain, an array of the vertices of an outline in their order, a pair (vertices, facets), a boolean mask, a "
            "polygon of shapely, geopandas or GeoJSON (a dict), or a mesh of meshio")
+
+_SOLID_CELLS = ("tetra", "hexahedron", "wedge", "pyramid", "VTK_LAGRANGE")
+"""How meshio's names of cells that fill space begin."""
 
 INSIDE, BOUNDARY, OUTSIDE = 1, 2, 3
 """Where a point lies: see `Domain.locate`."""
@@ -60,7 +63,8 @@ class Domain(Handle):
             are left out. Each polygon of a MultiPolygon of several becomes a region with its holes. A boolean array is a
             mask, as in `from_mask`. None: no outline, if there are regions.
         facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles (3-D) and so on. In
-        2-D you may leave it out for a polygon through the vertices in order.
+            2-D you may leave it out for a polygon through the vertices in order. In 3-D facets may be quadrilaterals
+            (m, 4), which are split from their first vertex
         regions: polygons that are part of the shape: further outlines, or islands in holes
         holes: polygons inside a polygon that are not part of the shape; only without ``facets``
         lines: polylines inside it, (n, 2) each; two vertices make a bone
@@ -91,6 +95,7 @@ class Domain(Handle):
                  voids: Iterable[Any] = (), surfaces: Iterable[Any] = (),
                  features: Optional[Iterable[Tuple[str, Any]]] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
+        facets = triangles_of(vertices, facets)
         regions, holes, lines = list(regions), list(holes), list(parts_of(lines) if is_geometry(lines) else lines)
         voids, surfaces = list(voids), list(surfaces)
         if facets is not None and vertices is not None and np.ndim(vertices) == 2 and np.shape(vertices)[1] == 3:
@@ -278,6 +283,41 @@ class Domain(Handle):
                                address(bary), env))
         return (where, facet, bary) if nearest else where
 
+    @property
+    def bounds(self) -> Tuple[float, ...]:
+        """The smallest and then the largest coordinates, in the order of shapely's ``bounds``."""
+        info = self.info
+        return (*info.lower.tolist(), *info.upper.tolist())
+
+    @property
+    def __geo_interface__(self) -> Any:
+        """A shape in the plane as a Polygon or MultiPolygon of GeoJSON, for ``shapely.geometry.shape`` and others. Lines
+        and points inside are left out."""
+        if self.dim != 2:
+            raise AttributeError(f"GeoJSON is of the plane; this domain has dimension {self.dim}")
+        from ._rings import geojson_of
+
+        return geojson_of(self.vertices, self.facets)
+
+    def plot(self, *, axis: Optional[Any] = None, **style: Any) -> Any:
+        """Draws the shape with matplotlib, in the plane or in space, and what lies inside in the plane.
+
+        Args:
+            axis: a matplotlib axis to draw onto, in space with projection="3d"; None: a new one
+            style: how the outline is drawn, as ``pyplot.plot`` takes it; in space how faces are drawn
+
+        Returns:
+            the axis
+        """
+        from ._plot import plot_domain
+
+        return plot_domain(self, axis, style)
+
+    def _repr_svg_(self) -> Optional[str]:
+        from ._show import draw_domain
+
+        return draw_domain(self)
+
     def __repr__(self) -> str:
         info = self.info
         return f"<libicc.Domain: {info.dim}-D, {info.n_vertices} vertices, {info.n_facets} facets>"
@@ -291,7 +331,8 @@ def as_domain(shape: ShapeLike) -> Domain:
 
     It takes a Domain; anything that `Domain` takes, such as an array of polygon vertices, a polygon of shapely,
     geopandas or GeoJSON (a dict), or a boolean mask; a pair (vertices, facets); or a meshio Mesh. A meshio Mesh of
-    triangles in space is a surface. One of triangles in the plane or of tetrahedra is a conforming mesh.
+    triangles or quads in space is a surface. One of triangles or quads in the plane, or of tetrahedra, is a conforming
+    mesh.
     """
     if isinstance(shape, Domain):
         return shape
@@ -422,13 +463,20 @@ def _kind_of(shape: Any) -> str:
 
 def _from_meshio(mesh: Any) -> Domain:
     points, cells = np.asarray(mesh.points, dtype=np.float64), mesh.cells_dict
-    if "tetra" in cells:
+    solid = [kind for kind in cells if kind.startswith(_SOLID_CELLS)]
+    if solid == ["tetra"]:
         return Domain.from_mesh(points, cells["tetra"])
-    if "triangle" not in cells:
-        raise ValueError("the mesh has neither tetrahedra nor triangles")
-    if points.shape[1] == 2 or not points[:, 2].any():
-        return Domain.from_mesh(points[:, :2], cells["triangle"])
-    return Domain(points, cells["triangle"])
+    if solid:
+        raise ValueError(f"the mesh has cells of the kind {', '.join(solid)}; a shape is made of tetrahedra alone, or of "
+                         "triangles and quads. Take the surface of the mesh, or carry all its points by a map of the "
+                         "surface: mapping(mesh.points)")
+    triangles = [cells["triangle"]] if "triangle" in cells else []
+    triangles += [split_quads(cells["quad"])] if "quad" in cells else []
+    if not triangles:
+        raise ValueError(f"the mesh has {', '.join(cells) or 'no cells'}; a shape is made of tetrahedra, triangles or quads")
+    flat = points.shape[1] == 2 or not points[:, 2].any()
+    joined = np.concatenate(triangles)
+    return Domain.from_mesh(points[:, :2], joined) if flat else Domain(points, joined)
 
 
 def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:

@@ -10,6 +10,7 @@ import numpy as np
 from ._abi import lib, new
 from ._core import Call, Progress
 from ._map import Map
+from ._transform import Transform
 
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats
@@ -88,25 +89,42 @@ class PixelTransform:
     are. With ``outside="blank"`` they are left blank.
     """
 
-    def __init__(self, mapping: Map, outside: str = "keep"):
+    def __init__(self, mapping: Transform, outside: str = "keep"):
         if outside not in ("keep", "blank"):
             raise ValueError("outside must be 'keep' or 'blank'")
         self.map, self.outside = mapping, outside
 
-    def _through(self, function: Any, coords: ArrayLike) -> Floats:
-        coords = np.asarray(coords, dtype=np.float64)
-        images = function(coords + 0.5) - 0.5
-        lost = np.isnan(images[:, 0])
-        images[lost] = coords[lost] if self.outside == "keep" else -1e6
-        return images
+    @classmethod
+    def from_estimate(cls, src: ArrayLike, dst: ArrayLike, outside: str = "keep", **options: Any) -> "PixelTransform":
+        """The transform that takes pixels `src` (n, 2) of the result to pixels `dst` of the picture. `libicc.fit` makes
+        it, and takes the other options."""
+        from ._fit import fit
+
+        return cls(fit(np.add(dst, 0.5), np.add(src, 0.5), **options), outside)
 
     def __call__(self, coords: ArrayLike) -> Floats:
         """Result -> picture, (n, 2)."""
-        return self._through(self.map.inverse, coords)
+        coords = np.asarray(coords, dtype=np.float64)
+        images: Floats = self.map.apply_inverse(coords + 0.5) - 0.5
+        lost = np.isnan(images[..., 0])
+        images[lost] = coords[lost] if self.outside == "keep" else -1e6
+        return images
 
-    def inverse(self, coords: ArrayLike) -> Floats:
-        """Picture -> result, (n, 2)."""
-        return self._through(self.map, coords)
+    @property
+    def inverse(self) -> "PixelTransform":
+        """Picture -> result."""
+        return PixelTransform(self.map.inverse, self.outside)
+
+    def __add__(self, then: Any) -> "PixelTransform":
+        """This transform, then another one. A pixel that either has no image for is outside."""
+        if not isinstance(then, PixelTransform):
+            return NotImplemented
+        return PixelTransform(self.map @ then.map, self.outside)
+
+    def residuals(self, src: ArrayLike, dst: ArrayLike) -> Floats:
+        """Distances (n,) of the images of `src` from `dst`."""
+        off: Floats = self(src) - np.asarray(dst, dtype=np.float64)
+        return np.sqrt((off**2).sum(axis=-1))
 
 
 def picture_cage(shape: Tuple[int, ...]) -> Floats:

@@ -50,7 +50,7 @@ def exact_images(points: Floats, number: Array, mapping: Map, inverse: bool) -> 
     before, after, triangles = mapping.mesh()
     if inverse:
         before, after = after, before
-    carry = mapping.inverse if inverse else mapping.apply
+    carry = mapping.apply_inverse if inverse else mapping.apply
     size = float(np.ptp(before, axis=0).max())
     nodes, node = _distinct(points[:, :2])
 

@@ -29,9 +29,10 @@ from ._core import (
     name_of,
     points_of,
 )
-from ._domain import as_domain, as_domains
+from ._domain import Domain, as_domain, as_domains
 from ._errors import blaming, check
 from ._match import match_for
+from ._transform import Transform
 
 if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
@@ -41,11 +42,12 @@ SLIDES = {"all": 2}
 REPAIRS = {"none": 0, "patches": 1, "whole": 2}
 
 
-class Map(Saved):
+class Map(Transform, Saved):
     """A map from one domain to another that agrees with their boundaries.
 
-    Facet i of the source goes to facet i of the target. Call the map with points, or use `apply`. To go back, use
-    `inverse` or `apply_inverse`.
+    Facet i of the source goes to facet i of the target. Call the map with points, or use `apply`. You can also call it
+    with x and y, with a geometry of shapely or with GeoJSON. To go back, use `apply_inverse`, or `inverse`, which is a
+    map itself. ``second @ first`` is a map after a map.
 
     If you know only some points, such as control points, landmarks or pins, call `libicc.fit` instead. It needs no
     target outline. To make a warp of a mesh one-to-one, call `libicc.nearest`.
@@ -157,6 +159,30 @@ class Map(Saved):
         return bool(self._info("map_get_info", "map_info").certified)
 
     @property
+    def source(self) -> Domain:
+        """The shape that the map starts from: the domain of its chart, or else that of its mesh."""
+        chart = self.source_chart
+        return Domain.from_mesh(*self.mesh()[::2]) if chart is None else chart.domain
+
+    @property
+    def target(self) -> Domain:
+        """The shape that the map leads to, as `source`."""
+        chart = self.target_chart
+        return Domain.from_mesh(*self.mesh()[1:]) if chart is None else chart.domain
+
+    @property
+    def bounds(self) -> Tuple[float, ...]:
+        """The smallest and then the largest coordinates of the source, in the order of shapely's ``bounds``."""
+        chart = self.source_chart
+        if chart is None:
+            vertices = self.mesh()[0]
+            low, high = vertices.min(axis=0), vertices.max(axis=0)
+        else:
+            info = chart.domain.info
+            low, high = info.lower, info.upper
+        return (*low.tolist(), *high.tolist())
+
+    @property
     def source_chart(self) -> Optional[Chart]:
         """The chart of the source; None for maps made by `retarget`."""
         return Chart._borrow(lib.map_source_chart(self), owner=self)
@@ -168,12 +194,15 @@ class Map(Saved):
 
     def _apply(self, function: Any, points: ArrayLike, status: bool, progress: Optional[Progress],
                threads: Optional[int]) -> Any:
+        is_single = getattr(points, "dtype", None) == np.float32
         points, shape = grid_of(points, self.dim)
         n, dim = points.shape
         images = np.empty((*shape, dim))
         states = np.empty(shape, dtype=np.int32) if status else None
         env, done = bulk(n, progress, threads)
         done(function(self, n, address(points), address(images), address(states), None, env))
+        if is_single:
+            images = images.astype(np.float32)
         return (images, states) if status else images
 
     @overload
@@ -187,7 +216,7 @@ class Map(Saved):
               threads: Optional[int] = None) -> Any:
         """Maps points (n, dim) of the source to images (n, dim) in the target, NaN for points without an image. With
         ``status`` it also returns an int32 array (n,): 0, or the number of an `Error`. Other arrangements, such as
-        grids (height, width, dim), keep their shape. Images are always float64."""
+        grids (height, width, dim), keep their shape. Images of float32 are float32, others float64."""
         return self._apply(lib.map_apply, points, status, progress, threads)
 
     @overload
@@ -201,10 +230,6 @@ class Map(Saved):
                       threads: Optional[int] = None) -> Any:
         """Maps points of the target to the source; otherwise like `apply`."""
         return self._apply(lib.map_apply_inverse, points, status, progress, threads)
-
-    #: Calling a map is applying it, and `inverse` is `apply_inverse`.
-    __call__ = apply
-    inverse = apply_inverse
 
     def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> Floats:
@@ -312,21 +337,39 @@ class Map(Saved):
         """Like `certify`, but moves images of inner vertices until no simplex is inverted, if possible."""
         return self._carry(lib.map_repair, vertices, simplices, progress, threads)
 
-    def plot(self, *, lines: int = 25, axes: Optional[Sequence[Any]] = None, **style: Any) -> Any:
-        """Draws a mesh map in the plane with matplotlib: the source with a grid on the left, and the target with the
-        mapped grid on the right.
+    def warp(self, image: ArrayLike, out: Optional[ArrayLike] = None, **options: Any) -> Any:
+        """Warps a picture, as `libicc.warp_image` does; the other arguments are the same."""
+        from ._image import warp_image
+
+        return warp_image(image, self, out, **options)
+
+    def plot(self, *, lines: int = 25, axes: Optional[Sequence[Any]] = None, stretch: bool = False,
+             **style: Any) -> Any:
+        """Draws a mesh map with matplotlib: the source on the left, the target on the right. In the plane a grid shows
+        how the inside moves. In space both surfaces are drawn.
 
         Args:
             lines: number of grid lines along the longer side
-            axes: two matplotlib axes to draw onto; None: new ones
-            style: how the grid is drawn, as ``pyplot.plot`` takes it
+            axes: two matplotlib axes to draw onto, in space with projection="3d"; None: new ones
+            stretch: colour each place of the target by the largest factor that lengths grow by there
+            style: how the grid is drawn, as ``pyplot.plot`` takes it; in space how faces are drawn
 
         Returns:
             the axes
         """
         from ._plot import plot_map
 
-        return plot_map(self, lines, axes, style)
+        return plot_map(self, lines, axes, stretch, style)
+
+    def _repr_html_(self) -> Optional[str]:
+        from ._show import show_map
+
+        return show_map(self)
+
+    def _repr_svg_(self) -> Optional[str]:
+        from ._show import draw_map
+
+        return draw_map(self)
 
     def __repr__(self) -> str:
         info = self.info

@@ -24,7 +24,19 @@ def _surface(kind: str, surface: Any) -> Feature:
         vertices, facets = surface
     except (TypeError, ValueError):
         raise ValueError(f"a {kind} of a solid is a pair of vertices (n, 3) and triangles (m, 3)") from None
-    return kind, points_of(vertices, 3), indices(facets, 3, f"the triangles of a {kind}")
+    return kind, points_of(vertices, 3), indices(triangles_of(vertices, facets), 3, f"the triangles of a {kind}")
+
+
+def split_quads(quads: ArrayLike) -> Any:
+    """Two triangles for each quadrilateral, split from its first vertex, as the command does."""
+    corners = np.asarray(quads)
+    return corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+
+def triangles_of(vertices: Any, facets: Any) -> Any:
+    """Facets of a surface with quadrilaterals (n, 4) split; others as they are."""
+    is_surface = facets is not None and np.ndim(vertices) == 2 and np.shape(vertices)[1] == 3
+    return split_quads(facets) if is_surface and np.ndim(facets) == 2 and np.shape(facets)[1] == 4 else facets
 
 
 def solid_features(voids: Iterable[Any], surfaces: Iterable[Any], lines: Iterable[ArrayLike],

@@ -42,8 +42,14 @@ def map_points(mapping: Map, points: Any, *, inverse: bool = False) -> Any:
     if points.shape[-1] != mapping.dim:
         raise ValueError(f"points must have the shape (.., {mapping.dim}), not {points.shape}")
     points = points.rechunk({points.ndim - 1: -1})
-    return map_blocks(_images, points, delayed(mapping, pure=True), inverse, dtype=np.float64,
-                      meta=np.empty((0,) * points.ndim))
+    dtype = _dtype_of(points)
+    return map_blocks(_images, points, delayed(mapping, pure=True), inverse, dtype=dtype,
+                      meta=np.empty((0,) * points.ndim, dtype))
+
+
+def _dtype_of(points: Any) -> Any:
+    """The type of the images of points."""
+    return np.float32 if points.dtype == np.float32 else np.float64
 
 
 def _map_rows(mapping: Map, source: str, target: str, first: int, last: int, inverse: bool) -> int:
@@ -65,7 +71,7 @@ def map_npy(mapping: Map, source: str, target: str, *, inverse: bool = False, ch
     points = np.load(source, mmap_mode="r")
     if points.ndim != 2 or points.shape[1] != mapping.dim:
         raise ValueError(f"points must have the shape (n, {mapping.dim}), not {points.shape}")
-    open_memmap(target, "w+", np.float64, points.shape).flush()
+    open_memmap(target, "w+", _dtype_of(points), points.shape).flush()
     there = delayed(mapping, pure=True)
     parts = [delayed(_map_rows)(there, source, target, first, min(first + chunk, len(points)), inverse)
              for first in range(0, len(points), chunk)]

@@ -1,6 +1,6 @@
-"""GeoPandas: ``import libicc.geopandas`` adds an accessor ``.icc`` to every series of geometries.
+"""GeoPandas: ``import libicc.geopandas`` adds an accessor ``.icc`` to every series and frame of geometries.
 
-    moved = frame.geometry.icc.map(mapping, tolerance=0.5)
+    moved = frame.icc.map(mapping, tolerance=0.5)
 """
 
 from __future__ import annotations
@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, Callable, List, Tuple
 
 import geopandas
 import numpy as np
-from pandas.api.extensions import register_series_accessor
+from pandas.api.extensions import register_dataframe_accessor, register_series_accessor
 from shapely.ops import transform
 
 from ._errors import Error, OutsideError
 from ._layer import exact_images
 from ._map import Map
+from ._transform import Transform
 
 if TYPE_CHECKING:
     from ._types import Array, Floats
@@ -32,7 +33,7 @@ class GeometryAccessor:
             raise AttributeError("only series of geometries have .icc")
         self._series = series
 
-    def map(self, mapping: Map, *, inverse: bool = False, tolerance: float = 0, exact: bool = False,
+    def map(self, mapping: Transform, *, inverse: bool = False, tolerance: float = 0, exact: bool = False,
             outside: str = "raise") -> Any:
         """Moves the geometries by a map of the plane. They keep their index, CRS and heights.
 
@@ -59,8 +60,9 @@ class GeometryAccessor:
             raise ValueError(f"geometries are of the plane; this map has dimension {mapping.dim}")
         if exact and tolerance > 0:
             raise ValueError("exact and tolerance exclude each other")
-        if exact and mapping.info.kind != "mesh":
-            raise ValueError("exact needs the triangles of a mesh map; this is a curve map")
+        if exact and not (isinstance(mapping, Map) and mapping.info.kind == "mesh"):
+            raise ValueError("exact needs the triangles of a mesh map; for an inverse give the map itself and inverse=True, "
+                             "for others a tolerance")
         lines, counts = _lines_of(self._series)
         carried = iter(_carried(lines, mapping, inverse, tolerance, exact))
         moved: List[Any] = []
@@ -73,6 +75,20 @@ class GeometryAccessor:
             each = iter(own)
             moved.append(None if lost or geometry is None else transform(lambda *axes: next(each).T, geometry))
         return geopandas.GeoSeries(moved, index=self._series.index, crs=self._series.crs, name=self._series.name)
+
+
+@register_dataframe_accessor("icc")
+class FrameAccessor:
+    """Applies maps to the active geometries of a frame. The other columns stay."""
+
+    def __init__(self, frame: Any):
+        if not isinstance(frame, geopandas.GeoDataFrame):
+            raise AttributeError("only frames with geometries have .icc: geopandas.GeoDataFrame(frame, geometry=..)")
+        self._frame = frame
+
+    def map(self, mapping: Transform, **options: Any) -> Any:
+        """Moves the geometries as `GeometryAccessor.map` does, with the same options."""
+        return self._frame.set_geometry(self._frame.geometry.icc.map(mapping, **options))
 
 
 def _lines_of(series: Any) -> Tuple[List[Floats], List[int]]:
@@ -92,7 +108,7 @@ def _lines_of(series: Any) -> Tuple[List[Floats], List[int]]:
     return lines, counts
 
 
-def _carried(lines: List[Floats], mapping: Map, inverse: bool, tolerance: float, exact: bool) -> List[Floats]:
+def _carried(lines: List[Floats], mapping: Transform, inverse: bool, tolerance: float, exact: bool) -> List[Floats]:
     """Moves all lines at once, NaN where there is no image. Coordinates beyond the first two stay."""
     if not lines:
         return []
@@ -100,9 +116,10 @@ def _carried(lines: List[Floats], mapping: Map, inverse: bool, tolerance: float,
     points = np.concatenate([np.pad(line, ((0, 0), (0, width - line.shape[1]))) for line in lines])
     number = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
     if exact:
+        assert isinstance(mapping, Map)
         points, images, number = exact_images(points, number, mapping, inverse)
     else:
-        points, images, number = _bent(points, number, mapping.inverse if inverse else mapping.apply, tolerance)
+        points, images, number = _bent(points, number, mapping.apply_inverse if inverse else mapping.apply, tolerance)
     points[:, :2] = images
     parts = np.split(points, np.searchsorted(number, np.arange(1, len(lines))))
     return [part[:, :line.shape[1]] for part, line in zip(parts, lines)]

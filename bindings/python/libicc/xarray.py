@@ -1,4 +1,4 @@
-"""xarray: ``import libicc.xarray`` adds an accessor ``.icc`` to every ``DataArray``.
+"""xarray: ``import libicc.xarray`` adds an accessor ``.icc`` to every ``DataArray`` and ``Dataset``.
 
     moved = elevation.icc.warp(mapping)
 
@@ -65,6 +65,38 @@ class RasterAccessor:
         coords.update({name: like[name] for name in places})
         return xarray.DataArray(warped.reshape(*raster.shape[:-2], *like.shape[-2:]), coords,
                                 (*raster.dims[:-2], *places), raster.name, raster.attrs)
+
+
+@xarray.register_dataset_accessor("icc")
+class DatasetAccessor:
+    """Applies maps to all rasters of a dataset."""
+
+    def __init__(self, dataset: Any):
+        self._dataset = dataset
+
+    def warp(self, mapping: Map, like: Optional[Any] = None, **options: Any) -> Any:
+        """Moves every variable that lies on the dataset's grid, as `RasterAccessor.warp` does with the same arguments.
+        Other variables stay. The grid is that of the first variable with two or more dimensions whose last two have
+        coordinates; `like` may be a dataset, too."""
+        places = _places(self._dataset)
+        if isinstance(like, xarray.Dataset):
+            like = like[_on(like, _places(like))[0]]
+        moved = _on(self._dataset, places)
+        kept = self._dataset.drop_vars([*moved, *(places if like is not None else ())])
+        return kept.assign({name: self._dataset[name].icc.warp(mapping, like, **options) for name in moved})
+
+
+def _places(dataset: Any) -> Any:
+    """The dimensions y and x of the first raster of a dataset."""
+    for raster in dataset.data_vars.values():
+        if raster.ndim >= 2 and all(name in raster.coords for name in raster.dims[-2:]):
+            return raster.dims[-2:]
+    raise ValueError("the dataset has no raster, which is a variable whose last two dimensions have coordinates")
+
+
+def _on(dataset: Any, places: Any) -> Any:
+    """The names of the rasters that lie on these dimensions."""
+    return [name for name, raster in dataset.data_vars.items() if raster.dims[-2:] == places]
 
 
 def _nodata(raster: Any) -> Any:

@@ -49,7 +49,7 @@ def test_geopandas(neighbour):
     with pytest.raises(ValueError, match="source: the GeoSeries has 0 rows; choose one"):
         libicc.Map(series[:0], series)
     with pytest.raises(TypeError, match="polygon is no list of points"):
-        libicc.Map(series, series)(series[0])
+        libicc.Map(series, series).apply(series[0])
 
 
 def test_masks():
