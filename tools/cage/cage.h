@@ -20,8 +20,8 @@
  * - SVG: cage_svg.c, its tags svg_tags.h, transforms svg_transform.h, path data cage_path.c, arcs
  *   svg_arc.h, outlines and holes contours.h.
  * - Features: cage_features.h, ties cage_ties.h. Degrees: cage_degrees.h. Defects: cage_defects.h.
- * - Surfaces: cage_surface.c reads, weld.h joins vertices, surface_write.h writes, filling.h and
- *   tetgen.c fill. Frames of an animation: cage_between.h.
+ * - Surfaces: cage_surface.c reads, weld.h joins vertices, mend.h mends scans (sides.h finds which
+ *   triangles meet), surface_write.h writes, filling.h and tetgen.c fill. Frames of an animation: cage_between.h.
  *
  * A format is a file cage_NAME.c with one reader (cage_readers.h). Begin with cage_read.c. */
 #ifndef CAGE_H

@@ -326,8 +326,10 @@ const option options[] = {
      .commands = FOR_CHECK,
      .offset = AT(repair),
      .value = "FILE",
-     .help = "write the cage without repeated vertices and spikes; in space with its faces joined; "
-             "of a mask with its contacts filled"},
+     .help =
+         "write the cage without repeated vertices and spikes; in space with its faces joined, "
+         "repeated and turned faces mended, and small holes filled; of a mask with its contacts "
+         "filled"},
     {.name = "boundary",
      .kind = OPTION_TEXT,
      .commands = FOR_CHECK,

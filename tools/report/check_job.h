@@ -5,6 +5,7 @@
 #define CHECK_JOB_H
 
 #include "cage/cage_defects.h"
+#include "cage/mend.h"
 #include "job/job.h"
 #include "report/chart_facts.h"
 
@@ -15,6 +16,7 @@ typedef struct check {
     size_t n_dropped; /* by --repair: vertices */
     size_t n_filled;  /* by --repair: cells of a mask */
     size_t n_joined;  /* by --repair: vertices of a surface */
+    mended mended;    /* by --repair: faces and holes of a surface */
     chart_facts charts[2];
     icc_map_info map; /* of kind 0 if there is no target */
     icc_map_report made;
@@ -51,8 +53,8 @@ int check_report(const check *c);
  * writes the rest. */
 int check_repair(check *c);
 
-/* --repair of a surface: joins vertices at one place, and writes the surface if it is then
- * closed. */
+/* --repair of a surface: joins vertices at one place, mends it (mend.h), and writes it if it is then
+ * valid. */
 int check_repair_surface(check *c);
 
 /* --repair of a mask: fills cells where others touch only along edges or corners, and writes it. */

@@ -235,9 +235,13 @@ static void report_repair(const check *c, json *j)
 {
     if (c->job.cages[0].cells != NULL)
         json_count(j, "filled_cells", c->n_filled);
-    else if (c->job.cages[0].dim == 3)
+    else if (c->job.cages[0].dim == 3) {
         json_count(j, "joined_vertices", c->n_joined);
-    else
+        json_count(j, "repeated_faces", c->mended.n_repeated);
+        json_count(j, "small_pieces", c->mended.n_crumbs);
+        json_count(j, "turned_faces", c->mended.n_turned);
+        json_count(j, "filled_holes", c->mended.n_holes);
+    } else
         json_count(j, "dropped_vertices", c->n_dropped);
 }
 

@@ -2,6 +2,7 @@
 #include "report/check_job.h"
 
 #include "base/allocate.h"
+#include "cage/mend.h"
 #include "cage/surface_write.h"
 #include "cage/weld.h"
 #include "job/cage_file.h"
@@ -163,8 +164,11 @@ int check_write_boundary(check *c)
 
 int check_repair_surface(check *c)
 {
-    c->n_joined = weld(&c->job.cages[0], c->job.args->weld);
-    int result = job_make_domains(&c->job);
+    cage *surface = &c->job.cages[0];
+    c->n_joined = weld(surface, c->job.args->weld);
+    int result = mend_surface(surface, c->job.args->source, &c->mended);
+    if (result == DONE)
+        result = job_make_domains(&c->job);
     progress_end(&c->job.bar);
     return result == DONE ? write_boundary(&c->job.cages[0], c->job.args->repair, "OBJ") : result;
 }
