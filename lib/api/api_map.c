@@ -2,6 +2,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
+#include "domain/features.h"
 #include "map/apply.h"
 #include "map/certify.h"
 #include "map/map_file.h"
@@ -142,6 +143,7 @@ icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
     if (map == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     const iccp_map_facts *f = &map->info;
+    const iccp_features *features = map->source_domain->features;
     const icc_map_info full = {.dim = f->dim,
                                .kind = f->kind,
                                .certified = f->certified,
@@ -151,9 +153,9 @@ icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
                                .n_vertices = f->n_vertices,
                                .n_simplices = f->n_simplices,
                                .energy = f->energy,
-                               .n_holes = f->n_holes,
-                               .n_lines = f->n_lines,
-                               .n_points = f->n_points,
+                               .n_holes = features != NULL ? features->n_holes : 0,
+                               .n_lines = features != NULL ? features->n_lines : 0,
+                               .n_points = features != NULL ? features->n_points : 0,
                                .n_ties = f->n_ties,
                                .detour = f->detour,
                                .n_slid = f->n_slid};

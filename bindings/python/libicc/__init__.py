@@ -14,7 +14,9 @@ Objects are immutable, and threads may share them. Calls release the interpreter
 so you can send them to other processes and machines. Diagnostics go to the logger "libicc", level INFO.
 """
 
-from . import kernel, stages
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import Any as _Any
+
 from ._abi import lib as _lib
 from ._chart import Chart
 from ._core import Progress
@@ -41,6 +43,9 @@ from ._fit import Fit, fit, nearest
 from ._image import PixelTransform, picture_cage, warp_image
 from ._map import Map
 from ._match import Match, match
+
+if _TYPE_CHECKING:
+    from . import kernel, stages
 
 __version__ = _lib.version().decode()
 """The version of the C library that is in use."""
@@ -83,3 +88,12 @@ __all__ = [
     "stages",
     "warp_image",
 ]
+
+
+def __getattr__(name: str) -> _Any:
+    """Imports the parts that most programs do not need when they are first used."""
+    if name in ("kernel", "stages"):
+        from importlib import import_module
+
+        return import_module("." + name, __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -37,6 +37,8 @@ from ._transform import Transform
 if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
 
+_PAIR = ctypes.c_double * 2
+
 KINDS = {"curves": 1, "mesh": 2}
 SLIDES = {"all": 2}
 REPAIRS = {"none": 0, "patches": 1, "whole": 2}
@@ -230,6 +232,13 @@ class Map(Transform, Saved):
                       threads: Optional[int] = None) -> Any:
         """Maps points of the target to the source; otherwise like `apply`."""
         return self._apply(lib.map_apply_inverse, points, status, progress, threads)
+
+    def _one(self, x: float, y: float, **options: Any) -> Tuple[float, ...]:
+        if options:
+            return super()._one(x, y, **options)
+        point, image = _PAIR(x, y), _PAIR()
+        check(lib.map_apply(self._handle, 1, ctypes.addressof(point), ctypes.addressof(image), None, None, None))
+        return image[0], image[1]
 
     def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> Floats:

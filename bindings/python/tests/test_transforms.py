@@ -1,7 +1,10 @@
 """Maps as people's other programs use them: x and y, geometries, GeoJSON, inverses, chains, pictures and bars."""
 
 import io
+import os
 import pickle
+import subprocess
+import sys
 from contextlib import redirect_stderr
 
 import numpy as np
@@ -100,6 +103,19 @@ def test_shapes_of_maps(slope):
     for mapping in (slope, pickle.loads(pickle.dumps(slope)), slope.retarget(SLOPE + 1), libicc.Map(SQUARE, SLOPE, "curves")):
         assert mapping.bounds == (0, 0, 10, 10) and mapping.source.info.measure == pytest.approx(100)
         assert mapping.target.info.measure == pytest.approx(libicc.Domain(SLOPE).info.measure)
+
+
+def test_counts_of_features_in_space():
+    parts = [libicc.Domain(10 * k * CUBE, QUADS, voids=[(k * (CUBE + 1), QUADS)], points=[[8 * k, 8, 8]],
+                           lines=[[[8 * k, 2, 2], [8 * k, 2, 4]]]) for k in (1, 1.25)]
+    mapping = libicc.Map(*parts)
+    for info in (mapping.info, pickle.loads(pickle.dumps(mapping)).info):
+        assert (info.n_holes, info.n_lines, info.n_points) == (1, 1, 1)
+
+
+def test_parts_are_imported_late():
+    code = "import sys, libicc; assert 'libicc.kernel' not in sys.modules; libicc.kernel; libicc.stages.Grid"
+    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
 
 
 def test_quads():

@@ -9,7 +9,7 @@ typedef struct iccp_map_facts {
     int32_t dim, kind, certified, reason, reason_side, class_kept;
     size_t n_vertices, n_simplices;
     double energy;
-    size_t n_holes, n_lines, n_points, n_ties;
+    size_t n_ties;
     double detour;
     size_t n_slid;
     /* How it was made. */

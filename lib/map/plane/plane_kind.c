@@ -19,7 +19,7 @@ static bool takes(const icc_chart *source)
     return source->mesh != NULL;
 }
 
-/* Finds the isotopy of a map with features, and fills in the members of its info about features,
+/* Finds the isotopy of a map with features, and fills in the members of its info about ties,
  * except for class_kept. */
 static icc_status describe(icc_map *map, const iccp_env *env)
 {
@@ -30,9 +30,6 @@ static icc_status describe(icc_map *map, const iccp_env *env)
         return ICC_OK;
     const icc_status status = iccp_isotopy_create(&plane->isotopy, &plane->pl, map->source_domain,
                                                   map->target_domain, env);
-    info->n_holes = features->n_holes;
-    info->n_lines = features->n_lines;
-    info->n_points = features->n_points;
     info->n_ties = plane->isotopy != NULL ? plane->isotopy->n : 0;
     info->detour = plane->isotopy != NULL ? plane->isotopy->detour : 0;
     return status;
