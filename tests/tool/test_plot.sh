@@ -134,6 +134,25 @@ grep -oE '>[^<]*</text>' drawing.svg | awk 'length > 50 { print; bad = 1 } END {
 refuses 2 '--slice is for shapes in space' -s source.txt --slice 1,0,0
 refuses 2 '--view is for shapes in space' -s source.txt --view 1,0,0
 
+# A page for a browser: complete in itself, with as many numbers as it says, and cells that keep their sign.
+run 0 plot -s source.txt -t target.txt --map mesh page.html
+if grep -qE '(src|href)="?https?://' page.html; then complain "the page loads from the network"; fi
+if command -v node >/dev/null; then
+    cat >page.cjs <<'END'
+const text = require('fs').readFileSync('page.html', 'utf8');
+const d = JSON.parse(text.split('application/json">')[1].split('</script>')[0]);
+const take = (s, type) => new type(Uint8Array.from(Buffer.from(s, 'base64')).buffer);
+const [a, b, c] = [take(d.before, Float32Array), take(d.after, Float32Array), take(d.cells, Uint32Array)];
+const at = (p, v) => [p[2 * v], p[2 * v + 1]];
+const area = (p, [u, v, w]) => (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0]);
+let bad = a.length !== 2 * d.vertices || b.length !== a.length || c.length !== 3 * d.simplices || !d.certified;
+for (let t = 0; t < c.length; t += 3)
+    for (const p of [a, b]) bad ||= !(area(p, [...c.subarray(t, t + 3)].map((v) => at(p, v))) > 0);
+process.exit(bad || c.length === 0 ? 1 : 0);
+END
+    node page.cjs || complain "the page's data are wrong"
+fi
+
 echo old >drawing.svg
 run 1 plot -s nowhere drawing.svg
 holds drawing.svg old

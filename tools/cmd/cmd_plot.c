@@ -7,6 +7,7 @@
 #include "base/system.h"
 #include "job/output_name.h"
 #include "plot/plot.h"
+#include "plot/plot_page.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -303,7 +304,11 @@ int run_plot(const args *a)
     job j;
     job_start(&j, a);
     int result = job_read_cages(&j);
-    if (result == DONE)
+    const char *format = output_format(a->operands[0]);
+    bool page = format != NULL && strcmp(format, "HTML") == 0;
+    if (result == DONE && page)
+        result = plot_page(&j);
+    else if (result == DONE)
         result = job_dim(&j) == 3 ? plot_solid(&j) : plot_apply(&j, a->operands[0]);
     if (result == DONE)
         result = report_points(&j, 0, 0, seconds_now() - began);

@@ -173,6 +173,7 @@ static const command commands[] = {
      .n_operands = 1,
      .run = run_plot,
      .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.vtk\n"
+              "--source FILE --target FILE [OPTION]... OUT.html\n"
               "--source FILE --target FILE [OPTION]... OUT.png (in space)",
      .summary = "Draws a shape, or the map between two",
      .example = "-s before.txt -t after.txt --y-down map.svg",
@@ -182,6 +183,10 @@ static const command commands[] = {
                 "\n"
                 "In space, with a target, it shows both bodies cut by a plane, with a grid on the "
                 "cut that the target inherits (SVG or PNG).\n"
+                "\n"
+                "OUT.html, with a target, is a page for a browser, complete in itself. A slider "
+                "goes from before to after, colours show the stretch, and in space you turn both "
+                "bodies and move the cut. It shows the cells of a mesh map.\n"
                 "\n"
                 "OUT.vtk, for ParaView, holds the source alone: grid, tree, boundary and curves, "
                 "with the displacement to the target if there is one.\n"},

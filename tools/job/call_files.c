@@ -73,7 +73,7 @@ static const char *formats_of_operand(const args *a, const command *c)
            : c->bit & (FOR_WARP | FOR_ANIMATE) || a->warps || a->rectifies ? PICTURES
            : a->fill                                                       ? "Medit, VTK"
            : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK"
-           : c->bit & FOR_PLOT               ? "SVG, PNG, VTK"
+           : c->bit & FOR_PLOT               ? "SVG, PNG, VTK, HTML"
            : c->bit & FOR_POSE && a->binding ? "text"
            : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, " PICTURES
                                : NULL;

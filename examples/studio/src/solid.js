@@ -53,7 +53,7 @@ function surfaceOf(simplices) {
   for (let t = 0; t < simplices.length; t += 4)
     for (const side of SIDES) {
       const face = side.map((k) => simplices[t + k]), key = [...face].sort((a, b) => a - b).join();
-      if (faces.has(key)) faces.set(key, null); else faces.set(key, face);
+      if (faces.has(key)) faces.set(key, null); else faces.set(key, { face, cell: t / 4 });
     }
   return [...faces.values()].filter(Boolean);
 }
@@ -80,12 +80,13 @@ function section(corners) {
 
 /**
  * What is left of a solid below a plane of the source, and where the map takes it: the map is linear in each
- * tetrahedron, so that the cut is exact on both sides. Arrays for Renderer3: { before, after, corners, opened }.
+ * tetrahedron, so that the cut is exact on both sides. Arrays for Renderer3, and the tetrahedron of
+ * each triangle: { before, after, corners, opened, cells }.
  */
 export function sliced({ vertices, images, simplices }, axis, cut) {
-  const out = { before: [], after: [], corners: [], opened: [] };
+  const out = { before: [], after: [], corners: [], opened: [], cells: [] };
   const corner = (v) => [...vertices.subarray(3 * v, 3 * v + 3), ...images.subarray(3 * v, 3 * v + 3), vertices[3 * v + axis] - cut];
-  const add = (polygon, opened) => {
+  const add = (polygon, opened, cell) => {
     for (let i = 1; i + 1 < polygon.length; ++i) {
       const three = [polygon[0], polygon[i], polygon[i + 1]];
       const hidden = [0, i + 2 < polygon.length ? 1 : 0, i > 1 ? 1 : 0];       // edges that only cut the polygon up
@@ -95,12 +96,13 @@ export function sliced({ vertices, images, simplices }, axis, cut) {
         out.corners.push(...hidden.map((h, e) => h + (e === k ? 1 : 0)));
       });
       out.opened.push(opened);
+      out.cells.push(cell);
     }
   };
-  for (const face of surfaceOf(simplices)) add(clip(face.map(corner)), false);
+  for (const { face, cell } of surfaceOf(simplices)) add(clip(face.map(corner)), false, cell);
   for (let t = 0; t < simplices.length; t += 4) {
     const corners = [0, 1, 2, 3].map((k) => corner(simplices[t + k])), above = corners.filter((p) => p.at(-1) > 0).length;
-    if (above > 0 && above < 4) add(section(corners), true);
+    if (above > 0 && above < 4) add(section(corners), true, t / 4);
   }
   return out;
 }

@@ -1,0 +1,25 @@
+# Makes the viewer's page (page.html, page.css, page.js and drawing code of the studio) an array in C.
+# usage: cmake -DPAGE=FOLDER -DSTUDIO=FOLDER -DOUT=FILE.c -P embed.cmake
+set(program "")
+foreach(file IN ITEMS ${STUDIO}/gl.js ${STUDIO}/gl3.js ${STUDIO}/solid.js ${PAGE}/page.js)
+  file(READ ${file} text)
+  # A page is one script: modules are joined, so that imports and exports go.
+  string(REGEX REPLACE "(^|\n)import [^\n]*" "\\1" text "${text}")
+  string(REGEX REPLACE "(^|\n)export " "\\1" text "${text}")
+  get_filename_component(name ${file} NAME_WE)
+  if(name STREQUAL "gl")
+    # Its shaders have the names of those of gl3.js, so it is a block that gives three functions.
+    set(text "const { programOf, buffersOf, contextOf } = (() => {\n${text}\nreturn { programOf, buffersOf, contextOf }\n})()\n")
+  endif()
+  string(APPEND program "${text}\n")
+endforeach()
+file(READ ${PAGE}/page.css style)
+file(READ ${PAGE}/page.html page)
+string(REPLACE "/*style*/" "${style}" page "${page}")
+string(REPLACE "/*program*/" "${program}" page "${page}")
+file(WRITE ${OUT}.html "${page}")
+file(READ ${OUT}.html bytes HEX)
+string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+string(REPEAT "[^,]*," 16 line)
+string(REGEX REPLACE "(${line})" "\\1\n" bytes "${bytes}")
+file(WRITE ${OUT} "#include \"plot/plot_page.h\"\nconst unsigned char viewer_page[] = {${bytes} 0};\n")
