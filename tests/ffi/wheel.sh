@@ -20,10 +20,11 @@ fail() {
 # Building leaves things beside the sources.
 rm -rf "$work"
 source=$work/source/bindings/python
-mkdir -p "$source/libicc" "$work/dist" "$work/elsewhere"
+mkdir -p "$source/libicc/front" "$work/dist" "$work/elsewhere"
 ln -s "$top/CMakeLists.txt" "$top/LICENSE" "$top/cmake" "$top/include" "$top/lib" "$work/source"
 cp -rL "$package"/*.* "$package/LICENSE" "$package/tests" "$source"
 cp "$package"/libicc/*.py "$package/libicc/py.typed" "$source/libicc"
+cp "$package"/libicc/front/*.py "$source/libicc/front"
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' "$package/pyproject.toml")
 (cd "$source" && "$python" -c 'import setuptools.build_meta as build; build.build_sdist("../../../dist")') >"$work/log"
 
@@ -35,7 +36,7 @@ wheel() {
         >>"$work/log" 2>&1 || fail "there is no wheel: $(tail -n 20 "$work/log")"
     wheel=$(echo "$folder"/*.whl)
     {
-        (cd "$package" && ls libicc/*.py libicc/py.typed)
+        (cd "$package" && ls libicc/*.py libicc/front/*.py libicc/py.typed)
         printf '%s\n' "$@"
         for name in LICENSE METADATA RECORD WHEEL top_level.txt; do
             echo "libicc-$version.dist-info/$name"
