@@ -14,6 +14,7 @@
  * Ways to a first map (the table in solid_start.c, in this order)
  * - solid_ways.h: harmonic images, repaired.
  * - solid_pockets.h: pockets are mapped anew.
+ * - solid_chain.h, for solids with features: the features shrink, move (feature_motion.h) and grow.
  * - Later: solid_improve.h lowers the energy, and solid_follow.h follows a moving target.
  *
  * Files that these use
@@ -29,7 +30,11 @@
 #include "map/kind/kind.h"
 
 /* The strategy that found a first map (solid_start.c). */
-typedef enum iccp_solid_way { ICCP_SOLID_DIRECTLY = 1, ICCP_SOLID_BY_POCKETS } iccp_solid_way;
+typedef enum iccp_solid_way {
+    ICCP_SOLID_DIRECTLY = 1,
+    ICCP_SOLID_BY_POCKETS,
+    ICCP_SOLID_BY_CHAIN
+} iccp_solid_way;
 
 /* Immutable once made. */
 typedef struct iccp_solid_map {

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "fill/fill_domain.h"
+#include "map/solid/solid_chain.h"
 #include "map/solid/solid_edit.h"
 #include "map/solid/solid_pockets.h"
 #include "map/solid/solid_ways.h"
@@ -31,11 +32,13 @@ static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
 
 static iccp_solid_strategy mend_pockets;
 
-/* The strategies in the order in which they are tried. Pockets have none of their own. */
+/* The strategies in the order in which they are tried. Pockets use only the first. */
 static const struct {
     iccp_solid_way way;
     iccp_solid_strategy *run;
-} STRATEGIES[] = {{ICCP_SOLID_DIRECTLY, iccp_solid_fit}, {ICCP_SOLID_BY_POCKETS, mend_pockets}};
+} STRATEGIES[] = {{ICCP_SOLID_DIRECTLY, iccp_solid_fit},
+                  {ICCP_SOLID_BY_POCKETS, mend_pockets},
+                  {ICCP_SOLID_BY_CHAIN, iccp_solid_chain}};
 
 enum { N_STRATEGIES = sizeof STRATEGIES / sizeof *STRATEGIES };
 
@@ -98,7 +101,7 @@ static icc_status find(iccp_solid_map *map, iccp_direction way, size_t n, iccp_m
     map_pair p = {{map, &other}, {way, {way.target, way.source}}, NULL, SIZE_MAX};
     icc_status status = ICC_OK;
     map->mesh = way.source->mesh;
-    iccp_split(part, N_STRATEGIES, (const double[N_STRATEGIES]){8, 1}, env);
+    iccp_split(part, N_STRATEGIES, (const double[N_STRATEGIES]){8, 1, 8}, env);
     for (size_t k = 0; status == ICC_OK && p.fewest > 0 && k < n; ++k) {
         status = take_turns(&p, k, info, &part[k]);
         map->way = STRATEGIES[k].way;
@@ -138,6 +141,8 @@ static icc_status mend_pockets(iccp_solid_map *map, iccp_direction way, iccp_map
                                const iccp_env *env)
 {
     const double began = iccp_seconds();
+    if (way.source->features != NULL) /* a pocket is a ball with nothing in it */
+        return ICC_OK;
     icc_status status = iccp_solid_own(map);
     if (status == ICC_OK)
         status = iccp_solid_mend_pockets(map, way.source, solve, env);
@@ -152,7 +157,5 @@ static icc_status mend_pockets(iccp_solid_map *map, iccp_direction way, iccp_map
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_domain *source, const icc_domain *target,
                             iccp_map_facts *info, const iccp_env *env)
 {
-    /* A pocket is a ball with nothing in it. */
-    const size_t n = source->features == NULL ? N_STRATEGIES : 1;
-    return find(map, (iccp_direction){source, target}, n, info, env);
+    return find(map, (iccp_direction){source, target}, N_STRATEGIES, info, env);
 }
