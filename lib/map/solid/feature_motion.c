@@ -39,8 +39,8 @@ static void set_rotation(const double *matrix, double *rotation)
     iccp_singular_find(3, matrix, &s);
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
-            rotation[3 * r + c] = s.u[0][r] * s.v[0][c] + s.u[1][r] * s.v[1][c] +
-                                  s.u[2][r] * s.v[2][c];
+            rotation[3 * r + c] =
+                s.u[0][r] * s.v[0][c] + s.u[1][r] * s.v[1][c] + s.u[2][r] * s.v[2][c];
 }
 
 /* Finds the unit quaternion of a rotation whose real part q[0] is not negative. The largest of its
@@ -80,9 +80,10 @@ static void set_part_of_turn(const double *turn, double share, double *m)
     for (int k = 0; k < 4; ++k)
         q[k] /= length;
     const double w = q[0], x = q[1], y = q[2], z = q[3];
-    const double rows[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-                            2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-                            2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)};
+    const double rows[9] = {
+        1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+        2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+        2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
     memcpy(m, rows, sizeof rows);
 }
 
@@ -243,18 +244,14 @@ icc_status iccp_feature_motion_create(iccp_feature_motion *motion, const icc_dom
 {
     const iccp_features *features = source->features;
     const size_t n_inner = source->n_vertices - features->n_outer;
-    *motion = (iccp_feature_motion){.memory = *memory,
-                                    .source = source,
-                                    .target = target,
-                                    .n = features->n,
-                                    .scale = 1};
+    *motion = (iccp_feature_motion){
+        .memory = *memory, .source = source, .target = target, .n = features->n, .scale = 1};
     motion->item = iccp_alloc_zero(memory, motion->n, sizeof *motion->item);
     motion->shape[0] = iccp_alloc(memory, n_inner, 3 * sizeof *motion->shape[0]);
     motion->shape[1] = iccp_alloc(memory, n_inner, 3 * sizeof *motion->shape[1]);
     motion->places = iccp_alloc(memory, source->n_vertices, 3 * sizeof *motion->places);
     motion->given = iccp_alloc_zero(memory, motion->n, sizeof *motion->given);
-    motion->triangles =
-        iccp_alloc(memory, features->n_places, 3 * sizeof *motion->triangles);
+    motion->triangles = iccp_alloc(memory, features->n_places, 3 * sizeof *motion->triangles);
     if (motion->item == NULL || motion->shape[0] == NULL || motion->shape[1] == NULL ||
         motion->places == NULL || motion->given == NULL || motion->triangles == NULL)
         return ICC_ERR_MEMORY;

@@ -3,10 +3,8 @@
 #include "map/solid/solid_chain.h"
 
 #include "base/clock.h"
-#include "domain/domain_make.h"
 #include "fill/fill_domain.h"
 #include "map/energy/singular.h"
-#include "map/energy/untangle.h"
 #include "map/solid/feature_motion.h"
 #include "map/solid/solid_follow.h"
 #include "map/solid/solid_improve.h"
@@ -21,12 +19,15 @@ static const double SMALLEST = 1.0 / 32;
 
 /* The shortest step, as a share of a stage, and the most steps of a chain. */
 static const double SHORTEST_STEP = 1.0 / 32;
-enum { MOST_STEPS = 64 };
+enum { MOST_STEPS = 40 };
+
+/* Most rounds of flips after a step. */
+enum { CARE_ROUNDS = 3 };
 
 typedef struct chain {
     const icc_domain *source, *target;
-    const icc_domain *body[2]; /* the outer surfaces alone, the source's filled */
-    const iccp_solid_map *bare; /* the map of the bodies */
+    icc_domain *body[2];  /* the outer surfaces alone, the source's filled */
+    iccp_solid_map *bare; /* the map of the bodies */
     iccp_feature_motion motion;
     iccp_solid_map *map; /* the source's mesh to `at` */
     icc_domain *at;
@@ -40,7 +41,6 @@ static icc_status make_body(icc_domain **body, const icc_domain *solid, bool fil
 {
     static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
     icc_domain *surface;
-    *body = NULL;
     icc_status status =
         iccp_domain_create(&surface, 3, solid->features->n_outer, solid->given,
                            solid->features->n_outer_facets, solid->facets, env, NULL);
@@ -84,8 +84,8 @@ static icc_status plan(chain *c, const iccp_env *env)
         status = carry_back(c, centre, &carriers[f]);
     }
     if (status == ICC_OK)
-        status = iccp_feature_motion_create(&c->motion, c->source, c->target, carriers,
-                                            &env->memory);
+        status =
+            iccp_feature_motion_create(&c->motion, c->source, c->target, carriers, &env->memory);
     iccp_free(&env->memory, carriers);
     return status;
 }
@@ -100,10 +100,30 @@ static void arrive(chain *c, iccp_solid_map *map, icc_domain *at)
     c->at = at;
 }
 
+/* Keeps the mesh healthy: flips, then a few steps, as long as there is something to flip. */
+static icc_status care(chain *c, const iccp_env *env)
+{
+    static const icc_improve_options FEW_STEPS = {.iterations = 4, .levels = -1, .tolerance = 1e-2};
+    const iccp_env quiet = iccp_quiet(env);
+    icc_status status = ICC_OK;
+    size_t n_changes = 1;
+    iccp_facet_tree_free(&c->map->before, &c->map->memory);
+    iccp_facet_tree_free(&c->map->after, &c->map->memory);
+    for (int k = 0; status == ICC_OK && n_changes > 0 && k < CARE_ROUNDS; ++k) {
+        iccp_map_facts facts = {0};
+        status = iccp_solid_refine(c->map, c->source, false, &n_changes, &quiet);
+        if (status == ICC_OK && n_changes > 0)
+            status = iccp_solid_map_relax(c->map, c->source, &FEW_STEPS, &facts, &quiet);
+    }
+    return status;
+}
+
 /* Moves on to a time of a stage. *done is false if that is not possible in one step. */
 static icc_status step(chain *c, iccp_motion_stage stage, double time, bool *done,
                        const iccp_env *env)
 {
+    static const char *const NAMES[ICCP_MOTION_STAGES] = {"shrink", "move",
+                                                          "go along with the surface", "grow"};
     const iccp_env quiet = iccp_quiet(env);
     iccp_map_facts facts = {0};
     iccp_solid_map *map = NULL;
@@ -115,8 +135,8 @@ static icc_status step(chain *c, iccp_motion_stage stage, double time, bool *don
         return status;
     ++c->n_steps;
     status = iccp_solid_map_follow(&map, c->map, c->source, c->at, at, 0, &facts, &vertex, env);
-    iccp_log(env, "stage %d, %g: %s, %zu tetrahedra, energy %g", (int)stage, time,
-             map != NULL ? "reached" : "blocked", c->map->mesh->n_simplices, facts.energy);
+    iccp_log(env, "features %s, %g of the way: %s", NAMES[stage], time,
+             map != NULL ? "done" : "blocked");
     *done = map != NULL;
     if (*done)
         arrive(c, map, at);
@@ -130,14 +150,15 @@ static icc_status go(chain *c, iccp_motion_stage stage, bool *done, const iccp_e
 {
     double time = 0, length = 1;
     icc_status status = ICC_OK;
-    for (size_t k = 0; status == ICC_OK && time < 1 && length >= SHORTEST_STEP &&
-                       c->n_steps < MOST_STEPS;
-         ++k) {
+    for (size_t k = 0;
+         status == ICC_OK && time < 1 && length >= SHORTEST_STEP && c->n_steps < MOST_STEPS; ++k) {
         const iccp_env part = iccp_round(env, k, 4);
         const double next = fmin(1, time + length);
         bool moved;
         status = step(c, stage, next, &moved, &part);
         time = moved ? next : time;
+        if (status == ICC_OK && moved)
+            status = care(c, &part);
         length = moved ? length : length / 2;
     }
     *done = time == 1;
@@ -171,40 +192,46 @@ static icc_status travel(chain *c, const iccp_solid_map *start, bool *done, cons
 
 /* ---- all of it ---- */
 
-/* Makes features smaller until they arrive. */
+/* Makes features smaller until there seems to be room for their ways. Returns false if they cannot
+ * become smaller. */
+static bool shrink(chain *c)
+{
+    double room;
+    do {
+        c->motion.scale /= 2;
+        room = iccp_feature_motion_bend(&c->motion, c->body[0]);
+    } while (room <= 0 && c->motion.scale > SMALLEST);
+    return c->motion.scale >= SMALLEST;
+}
+
+/* Makes features smaller until they arrive. Points cannot become smaller. */
 static icc_status arrive_at_last(chain *c, const iccp_solid_map *start, bool *done,
                                  const iccp_env *env)
 {
+    const iccp_features *features = c->source->features;
     icc_status status = ICC_OK;
+    size_t k = 0;
     *done = false;
-    for (size_t k = 0; status == ICC_OK && !*done && c->n_steps < MOST_STEPS; ++k) {
-        const iccp_env part = iccp_round(env, k, 2);
-        double room;
-        do {
-            c->motion.scale /= 2;
-            room = iccp_feature_motion_bend(&c->motion, c->body[0]);
-        } while (room <= 0 && c->motion.scale > SMALLEST);
-        iccp_log(env, "features are %g times smaller: room %g", 1 / c->motion.scale, room);
-        if (c->motion.scale < SMALLEST)
+    do {
+        const iccp_env part = iccp_round(env, k++, 2);
+        if (!shrink(c))
             break;
+        iccp_log(env, "features move at %g of their size", c->motion.scale);
         status = travel(c, start, done, &part);
-    }
+    } while (status == ICC_OK && !*done && features->n_points < features->n &&
+             c->n_steps < MOST_STEPS);
     return status;
 }
 
-static icc_status map_bodies(chain *c, iccp_solid_map **bare, icc_domain *body[2],
-                             const iccp_env *env)
+static icc_status map_bodies(chain *c, const iccp_env *env)
 {
     const iccp_env quiet = iccp_quiet(env);
     iccp_map_facts facts = {0};
-    icc_status status = make_body(&body[0], c->source, true, &quiet);
+    icc_status status = make_body(&c->body[0], c->source, true, &quiet);
     if (status == ICC_OK)
-        status = make_body(&body[1], c->target, false, &quiet);
+        status = make_body(&c->body[1], c->target, false, &quiet);
     if (status == ICC_OK)
-        status = iccp_solid_map_create(bare, body[0], body[1], 0, &facts, env);
-    c->body[0] = body[0];
-    c->body[1] = body[1];
-    c->bare = *bare;
+        status = iccp_solid_map_create(&c->bare, c->body[0], c->body[1], 0, &facts, env);
     return status;
 }
 
@@ -213,26 +240,31 @@ static bool is_fatal(icc_status status)
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED;
 }
 
+static icc_status find(chain *c, const iccp_solid_map *start, bool *done, const iccp_env *env)
+{
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 3}, env);
+    icc_status status = map_bodies(c, &part[0]);
+    if (status == ICC_OK && c->bare != NULL)
+        status = plan(c, env);
+    if (status == ICC_OK && c->bare != NULL)
+        status = arrive_at_last(c, start, done, &part[1]);
+    if (status == ICC_OK && *done)
+        status = iccp_solid_own(c->map);
+    *done = *done && status == ICC_OK;
+    return is_fatal(status) ? status : ICC_OK;
+}
+
 icc_status iccp_solid_chain(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
                             const iccp_env *env)
 {
     const double began = iccp_seconds();
     chain c = {.source = way.source, .target = way.target};
-    icc_domain *body[2] = {NULL, NULL};
-    iccp_solid_map *bare = NULL;
-    iccp_env part[2];
     bool done = false;
     if (way.source->features == NULL)
         return ICC_OK;
-    iccp_split(part, 2, (const double[]){1, 3}, env);
-    icc_status status = map_bodies(&c, &bare, body, &part[0]);
-    if (status == ICC_OK && bare != NULL)
-        status = plan(&c, env);
-    if (status == ICC_OK && bare != NULL)
-        status = arrive_at_last(&c, map, &done, &part[1]);
-    if (status == ICC_OK && done)
-        status = iccp_solid_own(c.map);
-    if (status == ICC_OK && done) {
+    const icc_status status = find(&c, map, &done, env);
+    if (done) {
         iccp_solid_take(map, c.map->own, c.map->images);
         c.map->own = NULL;
         c.map->images = NULL;
@@ -241,9 +273,9 @@ icc_status iccp_solid_chain(iccp_solid_map *map, iccp_direction way, iccp_map_fa
     iccp_solid_map_free(c.map);
     iccp_domain_release(c.at);
     iccp_feature_motion_free(&c.motion);
-    iccp_solid_map_free(bare);
-    iccp_domain_release(body[0]);
-    iccp_domain_release(body[1]);
+    iccp_solid_map_free(c.bare);
+    iccp_domain_release(c.body[0]);
+    iccp_domain_release(c.body[1]);
     info->seconds_repair += iccp_seconds() - began;
-    return is_fatal(status) ? status : ICC_OK;
+    return status;
 }
