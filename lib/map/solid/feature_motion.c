@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "domain/solid_domain.h"
+#include "geometry/simplex.h"
 #include "map/energy/singular.h"
 #include "math/elementary.h"
 #include "math/vec.h"
@@ -284,19 +285,26 @@ typedef struct pose {
     double place[3], rotation[9], scale;
 } pose;
 
-static pose pose_of(const iccp_feature_motion *motion, const moment *at, size_t f)
+/* Finds a feature's place relative to the region that contains it. */
+static void place_on_way(const iccp_moving *m, const moment *at, double *place)
 {
-    const iccp_moving *m = &motion->item[f];
-    pose p = {.scale = 1}, own;
-    double turn[9], place[3], arc[2];
-    memcpy(p.rotation, UNIT, sizeof UNIT);
-    if (m->parent < motion->n)
-        p = pose_of(motion, at, m->parent);
+    double arc[2];
     iccp_cis_turns(at->share / 2, arc);
     for (int k = 0; k < 3; ++k)
         place[k] = at->in_target ? m->last[k]
                                  : (1 - at->share) * m->place[k] + at->share * m->via[k] +
                                        arc[1] * m->bend[k];
+}
+
+static pose pose_of(const iccp_feature_motion *motion, const moment *at, size_t f)
+{
+    const iccp_moving *m = &motion->item[f];
+    pose p = {.scale = 1}, own;
+    double turn[9], place[3];
+    memcpy(p.rotation, UNIT, sizeof UNIT);
+    if (m->parent < motion->n)
+        p = pose_of(motion, at, m->parent);
+    place_on_way(m, at, place);
     if (at->in_target && m->parent == motion->n)
         memcpy(turn, m->final, sizeof turn);
     else
@@ -309,17 +317,24 @@ static pose pose_of(const iccp_feature_motion *motion, const moment *at, size_t 
     return own;
 }
 
-static void place_feature(iccp_feature_motion *motion, const moment *at, size_t f)
+/* Computes where vertex i of a feature is, relative to its centre, before scaling and turning. */
+static void shape_of(const iccp_feature_motion *motion, const moment *at, size_t f, size_t i,
+                     double *x)
 {
     const iccp_features *features = motion->source->features;
-    const iccp_feature *item = &features->item[f];
-    const pose own = pose_of(motion, at, f);
+    const size_t v = 3 * (features->item[f].first - features->n_outer + i);
     const double after = at->in_target ? 1 : at->share * motion->item[f].shrinkage;
+    for (size_t k = 0; k < 3; ++k)
+        x[k] = (1 - at->share) * motion->shape[0][v + k] + after * motion->shape[1][v + k];
+}
+
+static void place_feature(iccp_feature_motion *motion, const moment *at, size_t f)
+{
+    const iccp_feature *item = &motion->source->features->item[f];
+    const pose own = pose_of(motion, at, f);
     for (size_t i = 0; i < item->n; ++i) {
-        const size_t v = 3 * (item->first - features->n_outer + i);
         double x[3], *place = motion->places + 3 * (item->first + i);
-        for (size_t k = 0; k < 3; ++k)
-            x[k] = (1 - at->share) * motion->shape[0][v + k] + after * motion->shape[1][v + k];
+        shape_of(motion, at, f, i, x);
         apply(own.rotation, x, place);
         for (size_t k = 0; k < 3; ++k)
             place[k] = own.place[k] + own.scale * place[k];
@@ -352,116 +367,120 @@ icc_status iccp_feature_waypoint(icc_domain **out, iccp_feature_motion *motion,
 
 /* ---- bends ---- */
 
-/* Moments of the way at which room is measured, and attempts at a bend for each feature. */
-enum { MOMENTS = 12, ATTEMPTS = 60 };
+/* Moments of the way at which room is measured, attempts at a bend, and how often each feature has
+ * its turn. */
+enum { MOMENTS = 12, ATTEMPTS = 60, PASSES = 2 };
 
-/* Room that need not grow, and the longest bend, in the body's local coordinates. */
+/* Room that need not grow, and the longest bend, as shares of the
+ * size of what contains the feature. */
 static const double ENOUGH_ROOM = 0.03, LONGEST_BEND = 0.5;
 
+/* Measures how far inside the body a place is; negative if it is outside. */
+static double depth_in_body(const icc_domain *body, const double *place)
+{
+    double local[3], bary[3], distance2;
+    iccp_frame_in(&body->frame, 3, place, local);
+    if (iccp_domain_locate(body, local, true, NULL, NULL) != ICC_INSIDE)
+        return -HUGE_VAL;
+    iccp_facet_tree_nearest(iccp_domain_tree(body), local, bary, &distance2);
+    return sqrt(distance2) * body->frame.out[0] * body->frame.out[1];
+}
+
+/* Measures how far inside a region a place in its coordinates is. The sign is that at the nearest
+ * triangle. */
+static double depth_in_region(const iccp_feature_motion *motion, const moment *at, size_t region,
+                              const double *place)
+{
+    const iccp_features *features = motion->source->features;
+    const iccp_feature *item = &features->item[region];
+    double depth = 0, least = HUGE_VAL;
+    for (size_t t = item->first_facet; t < (size_t)item->first_facet + item->n_facets; ++t) {
+        double corner[3][3], side[2][3], normal[3], bary[3];
+        for (size_t c = 0; c < 3; ++c)
+            shape_of(motion, at, region, motion->source->facets[3 * t + c] - item->first,
+                     corner[c]);
+        const double *const corners[3] = {corner[0], corner[1], corner[2]};
+        const double distance2 = iccp_simplex_nearest(3, 3, corners, place, bary);
+        if (!(distance2 < least))
+            continue;
+        for (size_t k = 0; k < 3; ++k) {
+            side[0][k] = corner[1][k] - corner[0][k];
+            side[1][k] = corner[2][k] - corner[0][k];
+        }
+        iccp_vec_cross(side[0], side[1], normal);
+        least = distance2;
+        depth = sqrt(distance2);
+        const bool in_front = iccp_vec_dot(3, normal, place) > iccp_vec_dot(3, normal, corner[0]);
+        if (in_front == (features->sides[2 * t] == item->around))
+            depth = -depth;
+    }
+    return depth;
+}
+
 /* Measures the room of feature f at a moment: from other features in the same region and from what
- * contains them. *with is the nearest such feature, or f. */
+ * contains them, in the coordinates of the latter. */
 static double room_at(const iccp_feature_motion *motion, const icc_domain *body, const moment *at,
-                      size_t f, size_t *with)
+                      size_t f)
 {
     const iccp_moving *m = &motion->item[f];
-    const pose own = pose_of(motion, at, f);
-    double room = HUGE_VAL, local[3], bary[3], distance2;
-    *with = f;
-    if (m->parent == motion->n) {
-        iccp_frame_in(&body->frame, 3, own.place, local);
-        if (iccp_domain_locate(body, local, true, NULL, NULL) != ICC_INSIDE)
-            return -HUGE_VAL;
-        iccp_facet_tree_nearest(iccp_domain_tree(body), local, bary, &distance2);
-        room = sqrt(distance2) * body->frame.out[0] * body->frame.out[1] - own.scale * m->radius;
-    }
+    double own[3], its[3];
+    place_on_way(m, at, own);
+    double room = m->parent == motion->n ? depth_in_body(body, own)
+                                         : depth_in_region(motion, at, m->parent, own);
+    room -= at->scale * m->radius;
     for (size_t g = 0; g < motion->n; ++g) {
         const iccp_moving *other = &motion->item[g];
         if (g == f || other->parent != m->parent)
             continue;
-        const pose its = pose_of(motion, at, g);
-        const double gap = iccp_vec_distance(3, own.place, its.place) - own.scale * m->radius -
-                           its.scale * other->radius;
-        if (gap < room) {
-            room = gap;
-            *with = g;
-        }
+        place_on_way(other, at, its);
+        room = fmin(room, iccp_vec_distance(3, own, its) - at->scale * (m->radius + other->radius));
     }
     return room;
 }
 
 /* Measures the least room of a feature on its way. */
-static double room_of(const iccp_feature_motion *motion, const icc_domain *body, size_t f,
-                      size_t *with)
+static double room_of(const iccp_feature_motion *motion, const icc_domain *body, size_t f)
 {
     double least = HUGE_VAL;
     for (int k = 0; k <= MOMENTS; ++k) {
         const moment at = {false, motion->scale, (double)k / MOMENTS};
-        size_t other;
-        const double room = room_at(motion, body, &at, f, &other);
-        if (room < least) {
-            least = room;
-            *with = other;
-        }
+        least = fmin(least, room_at(motion, body, &at, f));
     }
     return least;
 }
 
-/* Draws bends for a feature and keeps the one with the most room. */
-static double bend_one(iccp_feature_motion *motion, const icc_domain *body, size_t f, double size,
-                       double room, uint64_t *random)
+/* Draws bends for a feature, short ones first, and keeps the one with the most room. */
+static void bend_one(iccp_feature_motion *motion, const icc_domain *body, size_t f, double longest,
+                     uint64_t *random)
 {
     iccp_moving *m = &motion->item[f];
-    size_t with;
-    double best[3];
+    double best[3], room = room_of(motion, body, f);
     memcpy(best, m->bend, sizeof best);
-    for (int k = 0; k < ATTEMPTS; ++k) {
-        const double length = size * (k + 1) / ATTEMPTS;
+    for (int k = 1; k <= ATTEMPTS; ++k) {
         for (int c = 0; c < 3; ++c)
-            m->bend[c] = length * (2 * iccp_random_unit(random) - 1);
-        const double found = room_of(motion, body, f, &with);
+            m->bend[c] = longest * k / ATTEMPTS * (2 * iccp_random_unit(random) - 1);
+        const double found = room_of(motion, body, f);
         if (found > room) {
             room = found;
             memcpy(best, m->bend, sizeof best);
         }
     }
     memcpy(m->bend, best, sizeof best);
-    return room;
-}
-
-/* Finds the feature with the least room. */
-static size_t find_closest(const iccp_feature_motion *motion, const icc_domain *body, double *room,
-                           size_t *with)
-{
-    size_t closest = 0;
-    *room = HUGE_VAL;
-    for (size_t f = 0; f < motion->n; ++f) {
-        size_t other = f;
-        const double own = room_of(motion, body, f, &other);
-        if (own < *room) {
-            *room = own;
-            closest = f;
-            *with = other;
-        }
-    }
-    return closest;
 }
 
 double iccp_feature_motion_bend(iccp_feature_motion *motion, const icc_domain *body)
 {
     const double size = body->frame.out[0] * body->frame.out[1];
     uint64_t random = 1;
-    double room = HUGE_VAL;
-    for (size_t k = 0; k < 2 * motion->n; ++k) {
-        size_t with = 0;
-        const size_t f = find_closest(motion, body, &room, &with);
-        if (room > ENOUGH_ROOM * size)
-            break;
-        const double better = bend_one(motion, body, f, LONGEST_BEND * size, room, &random);
-        if (better > room || with == f)
-            continue;
-        const double least = room_of(motion, body, with, &(size_t){0});
-        if (bend_one(motion, body, with, LONGEST_BEND * size, least, &random) <= least)
-            break;
+    double least = HUGE_VAL;
+    for (size_t k = 0; k < PASSES * motion->n; ++k) {
+        const size_t f = k % motion->n;
+        const uint32_t parent = motion->item[f].parent;
+        const double longest = parent == motion->n ? size : motion->item[parent].radius;
+        if (room_of(motion, body, f) < ENOUGH_ROOM * longest)
+            bend_one(motion, body, f, LONGEST_BEND * longest, &random);
     }
-    return room / size;
+    for (size_t f = 0; f < motion->n; ++f)
+        least = fmin(least, room_of(motion, body, f));
+    return least / size;
 }

@@ -21,6 +21,10 @@ static const double SMALLEST = 1.0 / 32;
 static const double SHORTEST_STEP = 1.0 / 32;
 enum { MOST_STEPS = 40 };
 
+/* Limit on the tetrahedra of a mesh that gets finer where the way is blocked, as a multiple of the
+ * source's. */
+static const double MOST_GROWTH = 4;
+
 /* Most rounds of flips after a step. */
 enum { CARE_ROUNDS = 3 };
 
@@ -100,8 +104,14 @@ static void arrive(chain *c, iccp_solid_map *map, icc_domain *at)
     c->at = at;
 }
 
-/* Keeps the mesh healthy: flips, then a few steps, as long as there is something to flip. */
-static icc_status care(chain *c, const iccp_env *env)
+static bool may_grow(const chain *c)
+{
+    return (double)c->map->mesh->n_simplices < MOST_GROWTH * (double)c->source->mesh->n_simplices;
+}
+
+/* Keeps the mesh healthy: flips, then a few steps, as long as there is something to flip. With
+ * `cuts` it also gets finer. */
+static icc_status care(chain *c, bool cuts, const iccp_env *env)
 {
     static const icc_improve_options FEW_STEPS = {.iterations = 4, .levels = -1, .tolerance = 1e-2};
     const iccp_env quiet = iccp_quiet(env);
@@ -111,7 +121,7 @@ static icc_status care(chain *c, const iccp_env *env)
     iccp_facet_tree_free(&c->map->after, &c->map->memory);
     for (int k = 0; status == ICC_OK && n_changes > 0 && k < CARE_ROUNDS; ++k) {
         iccp_map_facts facts = {0};
-        status = iccp_solid_refine(c->map, c->source, false, &n_changes, &quiet);
+        status = iccp_solid_refine(c->map, c->source, cuts && k == 0, &n_changes, &quiet);
         if (status == ICC_OK && n_changes > 0)
             status = iccp_solid_map_relax(c->map, c->source, &FEW_STEPS, &facts, &quiet);
     }
@@ -157,8 +167,8 @@ static icc_status go(chain *c, iccp_motion_stage stage, bool *done, const iccp_e
         bool moved;
         status = step(c, stage, next, &moved, &part);
         time = moved ? next : time;
-        if (status == ICC_OK && moved)
-            status = care(c, &part);
+        if (status == ICC_OK)
+            status = care(c, !moved && may_grow(c), &part);
         length = moved ? length : length / 2;
     }
     *done = time == 1;
