@@ -14,11 +14,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Features become at most this small. */
-static const double SMALLEST = 1.0 / 32;
+/* The least size of features, and the shortest step as a share of a stage. */
+static const double LEAST = 1.0 / 32;
 
-/* The shortest step, as a share of a stage, and the most steps of a chain. */
-static const double SHORTEST_STEP = 1.0 / 32;
+/* The most steps of a chain. */
 enum { MOST_STEPS = 40 };
 
 /* Limit on the tetrahedra of a mesh that gets finer where the way is blocked, as a multiple of the
@@ -160,8 +159,8 @@ static icc_status go(chain *c, iccp_motion_stage stage, bool *done, const iccp_e
 {
     double time = 0, length = 1;
     icc_status status = ICC_OK;
-    for (size_t k = 0;
-         status == ICC_OK && time < 1 && length >= SHORTEST_STEP && c->n_steps < MOST_STEPS; ++k) {
+    for (size_t k = 0; status == ICC_OK && time < 1 && length >= LEAST && c->n_steps < MOST_STEPS;
+         ++k) {
         const iccp_env part = iccp_round(env, k, 4);
         const double next = fmin(1, time + length);
         bool moved;
@@ -210,8 +209,8 @@ static bool shrink(chain *c)
     do {
         c->motion.scale /= 2;
         room = iccp_feature_motion_bend(&c->motion, c->body[0]);
-    } while (room <= 0 && c->motion.scale > SMALLEST);
-    return c->motion.scale >= SMALLEST;
+    } while (room <= 0 && c->motion.scale > LEAST);
+    return c->motion.scale >= LEAST;
 }
 
 /* Makes features smaller until they arrive. Points cannot become smaller. */
