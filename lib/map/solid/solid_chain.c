@@ -18,7 +18,7 @@
 static const double LEAST = 1.0 / 32;
 
 /* The most steps of a chain. */
-enum { MOST_STEPS = 40 };
+enum { MOST_STEPS = 30 };
 
 /* Limit on the tetrahedra of a mesh that gets finer where the way is blocked, as a multiple of the
  * source's. */
