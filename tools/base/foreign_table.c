@@ -108,7 +108,6 @@ const foreign_format foreign_formats[] = {
     {JSON_TYPE("CityJSON"), "a CityJSON file; cjio exports OBJ", NO_REMEDY},
     {JSON("asset"), "a glTF file in JSON", MAKE_GLB},
     /* meshes */
-    {BEGINS("$MeshFormat"), "a Gmsh file", MAKE_VTK},
     {BEGINS("mesh3d"), "a Netgen mesh", MAKE_VTK},
     {BEGINS("mesh2d"), "a Netgen mesh", MAKE_VTK},
     {BEGINS("*HEADING"), "an Abaqus file", MAKE_VTK},

@@ -114,19 +114,21 @@ static const command commands[] = {
               "--fill [OPTION]... SURFACE OUT",
      .summary = "Moves the vertices of a mesh with their cage, or fills a surface",
      .example = "-s before.off -t after.off part.vtk moved.vtk",
-     .details = "IN may be OBJ, OFF, Medit (.mesh), legacy VTK, PLY, STL or glTF (.glb). OUT has "
-                "the same format. If a vertex lies outside the cage, nothing is written unless you "
-                "give --outside keep.\n"
-                "\n"
-                "The command then says how many elements of each kind keep their orientation, and "
-                "whether the mesh and its image are one-to-one. The signs are exact. The exit code "
-                "is 4 if an element is inverted, collapsed or undecided; OUT is written all the "
-                "same. A coarse mesh can invert although its map is one-to-one; --untangle repairs "
-                "it where that is possible.\n"
-                "\n"
-                "With --fit the mesh needs no cage: some of its vertices are told where to go, and "
-                "all others follow as rigidly as possible. With --nearest another program has "
-                "moved all vertices, and only what it has folded changes.\n"},
+     .details =
+         "IN may be OBJ, OFF, Medit (.mesh), legacy VTK, Gmsh (.msh), PLY, STL or glTF (.glb). "
+         "OUT has the same format. If a vertex lies outside the cage, nothing is written unless "
+         "you "
+         "give --outside keep.\n"
+         "\n"
+         "The command then says how many elements of each kind keep their orientation, and "
+         "whether the mesh and its image are one-to-one. The signs are exact. The exit code "
+         "is 4 if an element is inverted, collapsed or undecided; OUT is written all the "
+         "same. A coarse mesh can invert although its map is one-to-one; --untangle repairs "
+         "it where that is possible.\n"
+         "\n"
+         "With --fit the mesh needs no cage: some of its vertices are told where to go, and "
+         "all others follow as rigidly as possible. With --nearest another program has "
+         "moved all vertices, and only what it has folded changes.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,

@@ -72,10 +72,10 @@ static const char *formats_of_operand(const args *a, const command *c)
     return a->geojson ? "GeoJSON, GeoJSONSeq, JSON"
            : c->bit & (FOR_WARP | FOR_ANIMATE) || a->warps || a->rectifies ? PICTURES
            : a->fill                                                       ? "Medit, VTK"
-           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK"
+           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK, Gmsh"
            : c->bit & FOR_PLOT               ? "SVG, PNG, VTK, HTML"
            : c->bit & FOR_POSE && a->binding ? "text"
-           : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, " PICTURES
+           : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, Gmsh, " PICTURES
                                : NULL;
 }
 

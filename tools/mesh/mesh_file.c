@@ -21,6 +21,7 @@ typedef struct format {
 static const format formats[] = {{"VTK", "# vtk DataFile", false, true, mesh_read_vtk},
                                  {"PLY", "ply", true, true, mesh_read_ply},
                                  {"Medit", "MeshVersion", false, false, mesh_read_medit},
+                                 {"Gmsh", "$MeshFormat", true, true, mesh_read_gmsh},
                                  {"OFF", "OFF", true, false, mesh_read_off},
                                  {"OBJ", "", false, false, mesh_read_obj}};
 static const format stl = {"STL", NULL, false, true, mesh_read_stl};
@@ -74,7 +75,7 @@ bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *
     if (out->n_vertices == 0)
         return spoilt(wrong, 0,
                       "there are no vertices; the file must be OBJ, OFF, PLY, STL, glTF (.glb), "
-                      "Medit (.mesh) or VTK");
+                      "Medit (.mesh), Gmsh (.msh) or VTK");
     return true;
 }
 

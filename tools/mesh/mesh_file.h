@@ -1,5 +1,5 @@
 /* Reads and writes meshes in the plane and in space: OBJ, OFF and Medit (.mesh) as text, legacy
- * VTK, PLY and STL as text or binary, binary glTF.
+ * VTK, Gmsh, PLY and STL as text or binary, binary glTF.
  *
  * The file is kept as it is. Only the first coordinates of each vertex are read and, on writing,
  * replaced, as many as the mesh has dimensions. All elements are known by their kinds. Faces with

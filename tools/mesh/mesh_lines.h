@@ -55,6 +55,7 @@ bool mesh_read_obj(lines *r);
 bool mesh_read_off(lines *r);
 bool mesh_read_medit(lines *r);
 bool mesh_read_vtk(lines *r);
+bool mesh_read_gmsh(lines *r);
 bool mesh_read_ply(lines *r);
 bool mesh_read_stl(lines *r);
 bool mesh_read_glb(lines *r);
