@@ -753,6 +753,53 @@ icc_picture picture(view<Sample> samples, std::int32_t width, std::int32_t heigh
     return result;
 }
 
+/** A sampled field with room for `values`, which are `float` or `double`. `step` has one vector of as many numbers as
+ *  `shape` for each axis. Set `outside` in the result. */
+template <class Value>
+icc_field field(view<Value> values, view<const std::size_t> shape, view<const double> origin,
+                view<const double> step, bool displacement)
+{
+    using value = std::remove_const_t<Value>;
+    static_assert(std::is_same_v<value, float> || std::is_same_v<value, double>);
+    const std::size_t dim = shape.size(), most = sizeof icc_field::shape / sizeof *icc_field::shape;
+    auto result = sized<icc_field>();
+    expect(origin, dim);
+    expect(step, dim * dim);
+    expect(values, dim * domain::product(shape));
+    result.dim = static_cast<std::int32_t>(dim); // icc_field_certify() refuses all but 2 and 3
+    result.bytes = sizeof(Value);
+    result.displacement = displacement;
+    for (std::size_t k = 0; k < dim && dim <= most; ++k) {
+        result.shape[k] = shape.data()[k];
+        result.origin[k] = origin.data()[k];
+    }
+    for (std::size_t k = 0; k < dim * dim && dim <= most; ++k)
+        result.step[k] = step.data()[k];
+    result.values = const_cast<value *>(values.data()); // only read by certify()
+    return result;
+}
+
+/** Proves that a sampled field does not fold: icc_field_certify(). Lists up to `most` cells that are not proven. */
+inline icc_field_report certify(const icc_field &field, std::vector<std::uint32_t> *cells = nullptr,
+                                std::vector<std::int32_t> *kinds = nullptr, std::size_t most = 0,
+                                const env &e = {})
+{
+    std::vector<std::uint32_t> listed(most);
+    std::vector<std::int32_t> what(most);
+    auto report = sized<icc_field_report>();
+    call(e, [&](auto... rest) {
+        return icc_field_certify(&field, most, listed.data(), what.data(), &report, rest...);
+    });
+    const std::size_t all = report.n_folded + report.n_undecided + report.n_missing;
+    listed.resize(all < most ? all : most);
+    what.resize(listed.size());
+    if (cells != nullptr)
+        *cells = std::move(listed);
+    if (kinds != nullptr)
+        *kinds = std::move(what);
+    return report;
+}
+
 /** Two layers of the same regions, with common vertices. */
 class coverage : public handle<icc_coverage, icc_coverage_free> {
 public:
@@ -1068,6 +1115,15 @@ public:
         std::size_t n_failed = 0;
         call(e, [&](auto... rest) { return icc_map_warp(get(), &source, &target, &n_failed, rest...); });
         return n_failed;
+    }
+
+    /** Samples the map, or its inverse, on the grid of a field: icc_map_sample(). Returns the number of samples without
+     *  an image. */
+    std::size_t sample(const icc_field &field, bool inverse = false, const env &e = {}) const
+    {
+        std::size_t n_outside = 0;
+        call(e, [&](auto... rest) { return icc_map_sample(get(), inverse, &field, &n_outside, rest...); });
+        return n_outside;
     }
 
 protected:

@@ -1377,6 +1377,120 @@ ICC_API icc_status icc_map_warp(const icc_map *map, const icc_picture *source,
                                 const icc_picture *target, size_t *n_failed, const icc_env *env,
                                 icc_error *err);
 
+/* -------------------------------------------------------------- sampled field */
+
+/** What a sample gets whose place has no image: icc_map_sample(). */
+enum {
+    ICC_OUTSIDE_NAN = 1,      /**< NaN; cells with such a corner are missing */
+    ICC_OUTSIDE_IDENTITY = 2, /**< the place stays where it is */
+    /** the place moves as the nearest point of the boundary does */
+    ICC_OUTSIDE_NEAREST = 3
+};
+
+/**
+ * A map that is sampled on a regular grid and read multilinearly between the samples.
+ *
+ * Sample (i, j, k) has the place origin + i step 0 + j step 1 + k step 2. Samples are stored with
+ * the first axis fastest, and the components of a sample side by side. A *cell* lies between
+ * neighbouring samples. It has 4 corners in 2-D and 8 in 3-D.
+ */
+typedef struct icc_field {
+    size_t size;          /**< set by the caller: `sizeof(icc_field)` */
+    int32_t dim;          /**< 2 or 3 */
+    int32_t bytes;        /**< of each value: 4 for float, 8 for double */
+    int32_t displacement; /**< 1: values are added to the place; 0: they are the image itself */
+    int32_t outside;      /**< `ICC_OUTSIDE_*`; 0: NaN. Read by icc_map_sample() only */
+    size_t shape[3];      /**< samples along each axis, at least 2 */
+    double origin[3];     /**< place of the first sample */
+    /** one step along axis k is step[dim * k], step[dim * k + 1], ..; in any directions */
+    double step[9];
+    /** shape[0] * shape[1] * .. * dim values with any alignment; icc_field_certify() only reads
+     *  them */
+    void *values;
+} icc_field;
+
+/** What icc_field_certify() found about the cells of a field. */
+typedef struct icc_field_report {
+    size_t size; /**< set by the caller: `sizeof(icc_field_report)` */
+    /** 1: the Jacobian determinant is proven positive in every point of every cell */
+    int32_t certified;
+    /** 1: the field is also proven one-to-one on its whole box. 0: this is not proven */
+    int32_t one_to_one;
+    size_t n_cells;     /**< cells of the grid */
+    size_t n_folded;    /**< cells with a point where the determinant is proven not positive */
+    size_t n_undecided; /**< cells whose sign is not known */
+    size_t n_missing;   /**< cells with a corner that is not finite; they are not judged */
+    /** least determinant at a corner of a judged cell, relative to that of the grid; rounded */
+    double least;
+    /** why it is not certified or not known to be one-to-one, in one line; or empty */
+    char message[192];
+} icc_field_report;
+
+/** What is wrong with a cell: icc_field_certify(). */
+enum {
+    ICC_CELL_FOLDED = 1,    /**< somewhere in it the determinant is not positive */
+    ICC_CELL_UNDECIDED = 2, /**< its sign is not known */
+    ICC_CELL_MISSING = 3    /**< a corner is not finite */
+};
+
+/**
+ * Samples a map on a grid. The sampled field can fold although the map does not, because it is
+ * multilinear between the samples. icc_field_certify() tells. If it folds, sample more finely.
+ *
+ * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
+ * @param inverse          1: sample the inverse map, with places in the target, as programs want
+ *                         that resample images; 0: the map
+ * @param field            the grid, with room for the values, which are written. Values are rounded
+ *                         once to the type that they are stored in
+ * @param[out] n_outside   samples whose place has no image, or NULL. `outside` says what they get
+ * @param env              may be NULL; results are the same for every number of threads
+ * @param err              may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
+ *         ::ICC_ERR_UNSUPPORTED, or ::ICC_ERR_CANCELLED (then some values have been written)
+ *
+ * Cost: that of icc_map_apply() for each sample.
+ */
+ICC_API icc_status icc_map_sample(const icc_map *map, int32_t inverse, const icc_field *field,
+                                  size_t *n_outside, const icc_env *env, icc_error *err);
+
+/**
+ * Proves that a sampled field does not fold, or lists the cells where it does. The field may come
+ * from any program, such as a registration. The proof is about the stored values, whatever their
+ * type, and about exact multilinear interpolation. A program that rounds while it interpolates may
+ * still reverse points that are closer together than its rounding errors.
+ *
+ * *What is proven.* Signs are exact. In 2-D the determinant is bilinear, so its signs at the
+ * corners decide. In 3-D it is a polynomial of degree 2 in each variable. A cell is proven if all
+ * Bernstein coefficients are positive, after subdivision if necessary, and disproven by a corner of
+ * a part where the determinant is not positive. Subdivision is bounded. The rest is undecided,
+ * which needs a determinant that is nearly 0 inside the cell, or numbers beyond 2^-200 and 2^200.
+ *
+ * A field whose cells are all proven keeps the orientation and is one-to-one near each point. It is
+ * one-to-one on the whole box if the image of the box's boundary is also simple. This is proven if
+ * all samples on the boundary have the same displacement. In 2-D the image of the boundary is a
+ * polygon, which is checked exactly if its vertices are representable. On a grid along the
+ * coordinate axes, the field is also one-to-one if the displacements of any two places differ by
+ * less than the places do, which is proven by bounds of the derivatives. Otherwise `one_to_one` is
+ * 0, which does not mean that two places meet.
+ *
+ * @param field       the grid and its values
+ * @param capacity    room for listed cells, or 0
+ * @param[out] cells  the first cells that are not proven, in ascending order. The first axis is the
+ *                    fastest, with shape[k] - 1 cells along axis k. NULL if capacity is 0
+ * @param[out] kinds  `ICC_CELL_*` of each listed cell. NULL if capacity is 0
+ * @param[out] report its `size` is set by the caller. All such cells are n_folded + n_undecided +
+ *                    n_missing
+ * @param env         may be NULL; results are the same for every number of threads
+ * @param err         may be NULL
+ * @return ::ICC_OK once the check has run, whatever it found, or ::ICC_ERR_ARGUMENT,
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
+ *
+ * Cost: about 1 us a cell in 3-D, and 1 byte of memory.
+ */
+ICC_API icc_status icc_field_certify(const icc_field *field, size_t capacity, uint32_t *cells,
+                                     int32_t *kinds, icc_field_report *report, const icc_env *env,
+                                     icc_error *err);
+
 #ifdef __cplusplus
 }
 #endif

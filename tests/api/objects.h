@@ -452,6 +452,41 @@ static inline icc_status call_map_certify(const objects *o, outcome *out, const 
     return status;
 }
 
+/* A field of doubles on a grid around the source's corner (0, 0). */
+static inline icc_field small_field(double *values)
+{
+    return (icc_field){.size = sizeof(icc_field),
+                       .dim = 2,
+                       .bytes = (int32_t)sizeof *values,
+                       .displacement = 1,
+                       .outside = ICC_OUTSIDE_NEAREST,
+                       .shape = {4, 4},
+                       .origin = {-0.1, -0.1},
+                       .step = {0.25, 0, 0, 0.25},
+                       .values = values};
+}
+
+static inline icc_status call_map_sample(const objects *o, outcome *out, const icc_env *env,
+                                         icc_error *err)
+{
+    const icc_field field = small_field(out->numbers);
+    return icc_map_sample(o->mesh_map, 0, &field, &out->count, env, err);
+}
+
+/* One cell is exactly flat, and one has a corner without a value. */
+static inline icc_status call_field_certify(const objects *o, outcome *out, const icc_env *env,
+                                            icc_error *err)
+{
+    double values[2 * 16] = {0.25};
+    const icc_field field = small_field(values);
+    icc_field_report r = {.size = sizeof r};
+    (void)o;
+    values[30] = NAN;
+    const icc_status status = icc_field_certify(&field, 4, out->indices, out->status, &r, env, err);
+    out->count = r.n_folded + 16 * r.n_missing;
+    return status;
+}
+
 /* One vertex inside, close to the boundary. */
 static inline icc_status call_map_repair(const objects *o, outcome *out, const icc_env *env,
                                          icc_error *err)
@@ -1032,6 +1067,8 @@ static const call CALLS[] = {
     {"icc_map_retarget", call_map_follow},
     {"icc_map_certify", call_map_certify},
     {"icc_map_repair", call_map_repair},
+    {"icc_map_sample", call_map_sample},
+    {"icc_field_certify", call_field_certify},
     {"icc_map_load", call_map_load},
     {"icc_map_create_nearest", call_map_create_nearest},
     {"icc_fit_create: points", call_fit_create},

@@ -134,6 +134,14 @@ IS(ICC_INTERPOLATION_NEAREST, 1);
 IS(ICC_INTERPOLATION_LINEAR, 2);
 IS(ICC_INTERPOLATION_CUBIC, 3);
 
+IS(ICC_OUTSIDE_NAN, 1);
+IS(ICC_OUTSIDE_IDENTITY, 2);
+IS(ICC_OUTSIDE_NEAREST, 3);
+
+IS(ICC_CELL_FOLDED, 1);
+IS(ICC_CELL_UNDECIDED, 2);
+IS(ICC_CELL_MISSING, 3);
+
 IS(ICC_SAMPLING_GRID, 1);
 IS(ICC_SAMPLING_BLUE, 2);
 IS(ICC_SAMPLING_POINTS, 3);
@@ -479,6 +487,28 @@ AT(icc_picture, pixels, 40);
 AT(icc_picture, interpolation, 48);
 AT(icc_picture, has_nodata, 52);
 AT(icc_picture, nodata, 56);
+
+SIZE(icc_field, 152);
+AT(icc_field, size, 0);
+AT(icc_field, dim, 8);
+AT(icc_field, bytes, 12);
+AT(icc_field, displacement, 16);
+AT(icc_field, outside, 20);
+AT(icc_field, shape, 24);
+AT(icc_field, origin, 48);
+AT(icc_field, step, 72);
+AT(icc_field, values, 144);
+
+SIZE(icc_field_report, 248);
+AT(icc_field_report, size, 0);
+AT(icc_field_report, certified, 8);
+AT(icc_field_report, one_to_one, 12);
+AT(icc_field_report, n_cells, 16);
+AT(icc_field_report, n_folded, 24);
+AT(icc_field_report, n_undecided, 32);
+AT(icc_field_report, n_missing, 40);
+AT(icc_field_report, least, 48);
+AT(icc_field_report, message, 56);
 
 SIZE(icc_grid_info, 152);
 AT(icc_grid_info, size, 0);

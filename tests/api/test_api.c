@@ -97,6 +97,38 @@ START_TEST(domains_refuse_bad_arguments)
 }
 END_TEST
 
+START_TEST(fields_refuse_bad_arguments)
+{
+    objects o;
+    objects_init(&o, 0);
+    icc_error err;
+    double values[32] = {0};
+    icc_field_report r = {.size = sizeof r};
+    const icc_field good = small_field(values);
+    icc_field bad[] = {good, good, good, good, good, good};
+    bad[0].dim = 4;
+    bad[1].bytes = 2;
+    bad[2].outside = 4;
+    bad[3].shape[1] = 1;
+    bad[4].shape[0] = SIZE_MAX / 2;
+    bad[5].values = NULL;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
+        EXPLAINED(icc_field_certify(&bad[i], 0, NULL, NULL, &r, NULL, &err));
+        EXPLAINED(icc_map_sample(o.mesh_map, 0, &bad[i], NULL, NULL, &err));
+    }
+    bad[0] = good;
+    bad[0].step[3] = 0; /* both steps along x */
+    EXPLAINED(icc_field_certify(&bad[0], 0, NULL, NULL, &r, NULL, &err));
+    EXPLAINED(icc_field_certify(&good, 1, NULL, NULL, &r, NULL, &err));
+    EXPLAINED(icc_field_certify(&good, 0, NULL, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_map_sample(o.mesh_map, 2, &good, NULL, NULL, &err));
+    EXPLAINED(icc_map_sample(NULL, 0, &good, NULL, NULL, &err));
+    ck_assert_int_eq(icc_field_certify(&good, 0, NULL, NULL, &r, NULL, &err), ICC_OK);
+    ck_assert_int_eq(r.one_to_one, 1);
+    objects_clear(&o);
+}
+END_TEST
+
 START_TEST(charts_refuse_bad_arguments)
 {
     objects o;
@@ -1351,6 +1383,7 @@ int main(void)
     tcase_set_timeout(tests, 120);
     tcase_add_test(tests, a_struct_without_its_size_is_refused_by_name);
     tcase_add_test(tests, domains_refuse_bad_arguments);
+    tcase_add_test(tests, fields_refuse_bad_arguments);
     tcase_add_test(tests, charts_refuse_bad_arguments);
     tcase_add_test(tests, maps_refuse_bad_arguments);
     tcase_add_test(tests, mesh_maps_refuse_bad_arguments);

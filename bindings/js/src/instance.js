@@ -6,7 +6,7 @@ import { domainOf, shapesOf } from './domain.js';
 import { IccError, codeOf } from './error.js';
 import { fitOf } from './fit.js';
 import { kernelOf } from './kernel.js';
-import { mapOf } from './map.js';
+import { certifierOf, mapOf } from './map.js';
 import { matchOf } from './match.js';
 import { stagesOf } from './stages.js';
 
@@ -53,6 +53,7 @@ export async function load(source) {
     get memoryBytes() { return core.bytes; },
     version: core.memory.string(core.call('icc_version')),
     versionNumber: core.call('icc_version_number'),
+    certifyField: certifierOf(core),
     statusName: (status) => core.memory.string(core.call('icc_status_name', status)),
     codeOf,
   };

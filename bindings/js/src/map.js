@@ -23,6 +23,34 @@ function picture(given, what) {
 }
 const bytesOf = (data) => new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
 
+const OUTSIDE = ['nan', 'identity', 'nearest'];
+
+/** The number of values of a grid. */
+function sampleCount({ shape }) {
+  if (shape.length !== 2 && shape.length !== 3) throw new TypeError('a grid has two or three axes');
+  return shape.reduce((n, side) => n * whole(side, 2, 'shape'), shape.length);
+}
+
+/** An icc_field. `step` has one vector for each axis. */
+function fieldOf(field, outside) {
+  const { shape, origin, step, displacement, values } = field, dim = shape.length, n = sampleCount(field);
+  const data = exactly(values instanceof Float32Array ? values : flat(values, dim), n, 'values');
+  const padded = (array, length, least, what) => [...exactly(flat(array, dim), least, what), ...Array(length - least).fill(0)];
+  if (!OUTSIDE.includes(outside)) throw new TypeError(`outside is ${outside}; it must be one of ${OUTSIDE}`);
+  return { dim, bytes: data.BYTES_PER_ELEMENT, displacement: displacement ? 1 : 0, outside: OUTSIDE.indexOf(outside) + 1,
+    shape: [...shape, ...Array(3 - dim).fill(0)], origin: padded(origin, 3, dim, 'origin'), step: padded(step, 9, dim * dim, 'step'),
+    values: bytesOf(data) };
+}
+
+/** Proves that a sampled field does not fold: certifyField() of an instance. */
+export const certifierOf = (core) => (field, most = 1000) => {
+  const cells = new Uint32Array(most), kinds = new Int32Array(most), report = {};
+  core.call('icc_field_certify', fieldOf(field, 'nan'), most, cells, kinds, report);
+  const n = Math.min(most, report.nFolded + report.nUndecided + report.nMissing);
+  return { ...report, cells: cells.slice(0, n), kinds: Array.from(kinds.slice(0, n), (kind) => CELLS[kind - 1]) };
+};
+const CELLS = ['folded', 'undecided', 'missing'];
+
 /** The class Map of an instance. */
 export function mapOf(core, Domain, Chart) {
   class Map extends Handle {
@@ -148,6 +176,18 @@ export function mapOf(core, Domain, Chart) {
       const source = new Float64Array(2 * info.nSource), target = new Float64Array(2 * info.nTarget);
       core.call('icc_map_get_tie', this, i, info, source, target);
       return { vertex: info.vertex, source, target, length: info.length };
+    }
+
+    /** Samples the map on a grid { shape, origin, step }. Returns { field, nOutside }, with a field for certifyField(). */
+    sample(grid, { inverse = false, displacement = true, outside = 'nan' } = {}) {
+      const values = new Float64Array(sampleCount(grid)), count = new Uint32Array(1);
+      const field = { ...grid, displacement, values }, raw = fieldOf(field, outside);
+      core.memory.scope(() => {
+        const address = core.memory.put('double*', values);
+        core.call('icc_map_sample', this, inverse ? 1 : 0, { ...raw, values: new Address(address) }, count);
+        values.set(core.memory.array(Float64Array, address, values.length));
+      });
+      return { field, nOutside: count[0] };
     }
 
     /** Warps a picture into another one, and returns that. Both are like ImageData: { width, height, data }, with red,

@@ -5,7 +5,7 @@ import fs from 'node:fs';
 const [include, output] = process.argv.slice(2);
 const api = JSON.parse(fs.readFileSync(`${include}/icc/api.json`, 'utf8'));
 // Structs that the methods build by themselves.
-const INTERNAL = ['icc_env', 'icc_error', 'icc_mesh', 'icc_picture', 'icc_feature', 'icc_constraint', 'icc_nearest_options',
+const INTERNAL = ['icc_env', 'icc_error', 'icc_mesh', 'icc_picture', 'icc_field', 'icc_feature', 'icc_constraint', 'icc_nearest_options',
   'icc_layer', 'icc_coverage_options', 'icc_coverage_difference'];
 // Structs that the caller fills in.
 const INPUTS = { icc_tie: 'TieInput', icc_line: 'LineInput' };

@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" />
 import type {
-  Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CoverageInfo, CurvesInfo, DiscInfo, DomainInfo, FacetReport, FeatureInfo, FieldInfo,
+  Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CoverageInfo, CurvesInfo, DiscInfo, DomainInfo, FacetReport, FeatureInfo, FieldInfo, FieldReport,
   FillOptions, FitInfo, FitOptions, FoliationInfo, FunctionInfo, FunctionOptions, FunctionReport, GradientInfo, GridInfo, GrowReport, ImproveOptions,
   MapInfo, MapOptions, MapReport, MatchInfo, MatchOptions, NearestReport, SamplingInfo, SamplingOptions, ShellingInfo, SolverReport, TreeOptions,
   TreeReport, WeightsInfo, WeightsOptions, WeightsReport, WeightsTimings,
@@ -14,6 +14,11 @@ export type Points = Float64Array | readonly number[] | readonly (readonly numbe
 /** Vertex or handle numbers: flat, or in rows. */
 export type Indices = Uint32Array | readonly number[] | readonly (readonly number[])[];
 /** Pixels as ImageData has them: red, green, blue and opacity, 4 * width * height bytes. */
+/** A regular grid. The first axis is the fastest, and `step` has one vector for each axis. */
+export interface SampleGrid { shape: readonly number[]; origin: readonly number[]; step: readonly number[] }
+/** A map that is sampled on a grid: displacements of the places, or their images. */
+export interface SampledField extends SampleGrid { displacement: boolean; values: Float64Array | Float32Array }
+
 export interface Picture { width: number; height: number; data: Uint8ClampedArray | Uint8Array }
 export interface Results {
   /** Receives the numbers, in place of a new array. It must have exactly as many. */
@@ -225,6 +230,9 @@ export interface Map extends Handle {
    * colour.
    */
   warp<P extends Picture>(source: Picture, target: P): P;
+  /** Samples the map, or its inverse, on a grid. Samples without an image get NaN, stay, or move as the nearest boundary point. */
+  sample(grid: SampleGrid, options?: { inverse?: boolean; displacement?: boolean; outside?: 'nan' | 'identity' | 'nearest' }):
+    { field: SampledField; nOutside: number };
   save(): Uint8Array;
 }
 export interface MapClass {
@@ -425,6 +433,9 @@ export interface Instance {
     ofChart(chart: Chart): GridFunction | null;
   };
   readonly Curves: new (gridFunction: GridFunction, points: Points, way?: 'up' | 'down') => Curves;
+  /** Proves that a sampled field does not fold, or lists up to `most` cells where it does (1000). */
+  certifyField(field: SampledField, most?: number):
+    FieldReport & { cells: Uint32Array; kinds: ('folded' | 'undecided' | 'missing')[] };
   /** All defects that keep a closed polygon from being a boundary. */
   boundaryDefects(outline: Points): { kind: string; a: number; b: number }[];
   /** Repairs a mask in which cells touch only at an edge or a corner. Gives the number of filled cells. */

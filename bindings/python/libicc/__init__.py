@@ -39,13 +39,14 @@ from ._errors import (
     UnsupportedError,
     VersionError,
 )
+from ._field import Field, certify_field
 from ._fit import Fit, fit, nearest
 from ._image import PixelTransform, picture_cage, warp_image
 from ._map import Map
 from ._match import Match, match
 
 if _TYPE_CHECKING:
-    from . import kernel, stages
+    from . import fields, kernel, stages
 
 __version__ = _lib.version().decode()
 """The version of the C library that is in use."""
@@ -61,6 +62,7 @@ __all__ = [
     "Coverage",
     "Domain",
     "Error",
+    "Field",
     "Fit",
     "FormatError",
     "INSIDE",
@@ -79,6 +81,8 @@ __all__ = [
     "VersionError",
     "as_domain",
     "boundary_defects",
+    "certify_field",
+    "fields",
     "fit",
     "kernel",
     "match",
@@ -92,7 +96,7 @@ __all__ = [
 
 def __getattr__(name: str) -> _Any:
     """Imports the parts that most programs do not need when they are first used."""
-    if name in ("kernel", "stages"):
+    if name in ("fields", "kernel", "stages"):
         from importlib import import_module
 
         return import_module("." + name, __name__)

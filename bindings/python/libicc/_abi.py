@@ -47,6 +47,8 @@ retarget_options iterations:i32
 improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32
 certificate certified:i32 boundary_simple:i32 n_inverted:size n_flat:size n_no_image:size first:i64 message:char[256]
 picture width:i32 height:i32 channels:i32 bytes:i32 alpha:i32 stride:size pixels:ptr interpolation:i32 has_nodata:i32 nodata:f64
+field dim:i32 bytes:i32 displacement:i32 outside:i32 shape:size[3] origin:f64[3] step:f64[9] values:ptr
+field_report certified:i32 one_to_one:i32 n_cells:size n_folded:size n_undecided:size n_missing:size least:f64 message:char[192]
 grid_info dim:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_inside:size n_stray:size cells:i32
 tree_options form:i32 axis_order:ptr
 tree_report n_inside:size n_outside:size n_unreachable:size n_pairs:size n_cousin_violations:size violation:u32[2]
@@ -147,6 +149,8 @@ map_jacobian map* size f64* f64* i32* size* env*
 map_save map* size void* size*
 map_load map** size void* env* error*
 map_warp map* picture* picture* size* env* error*
+map_sample map* i32 field* size* env* error*
+field_certify field* size u32* i32* field_report* env* error*
 grid_create grid** domain* i32 env* error*
 grid_create_mask grid** i32 size* u8* env* error*
 grid_refine grid** grid* env* error*

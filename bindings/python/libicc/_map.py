@@ -31,6 +31,7 @@ from ._core import (
 )
 from ._domain import Domain, as_domain, as_domains
 from ._errors import blaming, check
+from ._field import Field, field_of
 from ._match import match_for
 from ._transform import Transform
 
@@ -345,6 +346,26 @@ class Map(Transform, Saved):
                threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
         """Like `certify`, but moves images of inner vertices until no simplex is inverted, if possible."""
         return self._carry(lib.map_repair, vertices, simplices, progress, threads)
+
+    def field(self, grid: Any, spacing: Any = 1.0, origin: Any = 0.0, *, inverse: bool = False, displacement: bool = True,
+              outside: str = "nan", dtype: Any = np.float64, refine: int = 1, progress: Optional[Progress] = None,
+              threads: Optional[int] = None) -> Field:
+        """Samples the map on a regular grid, for programs that read displacement fields. `Field.certified` tells whether
+        the sampled field folds, although the map does not.
+
+        Args:
+            grid: samples along each axis, or an image of nibabel, which has origin and spacing as well
+            spacing: one number, one for each axis, or a matrix whose row k is one step along axis k
+            origin: place of the first sample
+            inverse: sample the inverse map, with places in the target, as programs want that resample images
+            displacement: whether to store the way to the image; False: the image itself
+            outside: what samples without an image get: "nan", "identity" (they stay), or "nearest" (they move as the
+                nearest point of the boundary does)
+            dtype: float64 or float32
+            refine: if the field is not certified, try grids up to this many times finer
+        """
+        return field_of(self, grid, spacing, origin, inverse=inverse, displacement=displacement, outside=outside,
+                        dtype=dtype, refine=refine, progress=progress, threads=threads)
 
     def warp(self, image: ArrayLike, out: Optional[ArrayLike] = None, **options: Any) -> Any:
         """Warps a picture, as `libicc.warp_image` does; the other arguments are the same."""

@@ -1212,6 +1212,76 @@ pub struct icc_picture {
 }
 sized!(icc_picture);
 
+// What a sample gets whose place has no image: `icc_map_sample()`.
+/// NaN; cells with such a corner are missing
+pub const ICC_OUTSIDE_NAN: i32 = 1;
+/// the place stays where it is
+pub const ICC_OUTSIDE_IDENTITY: i32 = 2;
+/// the place moves as the nearest point of the boundary does
+pub const ICC_OUTSIDE_NEAREST: i32 = 3;
+
+/// A map that is sampled on a regular grid and read multilinearly between the samples.
+///
+/// Sample (i, j, k) has the place origin + i step 0 + j step 1 + k step 2. Samples are stored with the first
+/// axis fastest, and the components of a sample side by side. A *cell* lies between neighbouring samples. It
+/// has 4 corners in 2-D and 8 in 3-D.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_field {
+    /// set by the caller: `sizeof(icc_field)`
+    pub size: usize,
+    /// 2 or 3
+    pub dim: i32,
+    /// of each value: 4 for float, 8 for double
+    pub bytes: i32,
+    /// 1: values are added to the place; 0: they are the image itself
+    pub displacement: i32,
+    /// `ICC_OUTSIDE_*`; 0: NaN. Read by `icc_map_sample()` only
+    pub outside: i32,
+    /// samples along each axis, at least 2
+    pub shape: [usize; 3],
+    /// place of the first sample
+    pub origin: [f64; 3],
+    /// one step along axis k is step\[dim * k\], step\[dim * k + 1\], ..; in any directions
+    pub step: [f64; 9],
+    /// shape\[0\] * shape\[1\] * .. * dim values with any alignment; `icc_field_certify()` only reads them
+    pub values: *mut c_void,
+}
+sized!(icc_field);
+
+/// What `icc_field_certify()` found about the cells of a field.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_field_report {
+    /// set by the caller: `sizeof(icc_field_report)`
+    pub size: usize,
+    /// 1: the Jacobian determinant is proven positive in every point of every cell
+    pub certified: i32,
+    /// 1: the field is also proven one-to-one on its whole box. 0: this is not proven
+    pub one_to_one: i32,
+    /// cells of the grid
+    pub n_cells: usize,
+    /// cells with a point where the determinant is proven not positive
+    pub n_folded: usize,
+    /// cells whose sign is not known
+    pub n_undecided: usize,
+    /// cells with a corner that is not finite; they are not judged
+    pub n_missing: usize,
+    /// least determinant at a corner of a judged cell, relative to that of the grid; rounded
+    pub least: f64,
+    /// why it is not certified or not known to be one-to-one, in one line; or empty
+    pub message: [c_char; 192],
+}
+sized!(icc_field_report);
+
+// What is wrong with a cell: `icc_field_certify()`.
+/// somewhere in it the determinant is not positive
+pub const ICC_CELL_FOLDED: i32 = 1;
+/// its sign is not known
+pub const ICC_CELL_UNDECIDED: i32 = 2;
+/// a corner is not finite
+pub const ICC_CELL_MISSING: i32 = 3;
+
 extern "C" {
     /// Makes a domain from its boundary. Either orientation is accepted and remembered.
     ///
@@ -2523,6 +2593,74 @@ extern "C" {
         source: *const icc_picture,
         target: *const icc_picture,
         n_failed: *mut usize,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Samples a map on a grid. The sampled field can fold although the map does not, because it is
+    /// multilinear between the samples. `icc_field_certify()` tells. If it folds, sample more finely.
+    ///
+    /// - `map`: a map in 2-D or 3-D, else `ICC_ERR_UNSUPPORTED`
+    /// - `inverse`: 1: sample the inverse map, with places in the target, as programs want that resample
+    ///   images; 0: the map
+    /// - `field`: the grid, with room for the values, which are written. Values are rounded once to the type
+    ///   that they are stored in
+    /// - `n_outside` (out): samples whose place has no image, or NULL. `outside` says what they get
+    /// - `env`: may be NULL; results are the same for every number of threads
+    /// - `err`: may be NULL
+    ///
+    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION`, `ICC_ERR_UNSUPPORTED`, or
+    /// `ICC_ERR_CANCELLED` (then some values have been written)
+    ///
+    /// Cost: that of `icc_map_apply()` for each sample.
+    pub fn icc_map_sample(
+        map: *const icc_map,
+        inverse: i32,
+        field: *const icc_field,
+        n_outside: *mut usize,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Proves that a sampled field does not fold, or lists the cells where it does. The field may come from
+    /// any program, such as a registration. The proof is about the stored values, whatever their type, and
+    /// about exact multilinear interpolation. A program that rounds while it interpolates may still reverse
+    /// points that are closer together than its rounding errors.
+    ///
+    /// *What is proven.* Signs are exact. In 2-D the determinant is bilinear, so its signs at the corners
+    /// decide. In 3-D it is a polynomial of degree 2 in each variable. A cell is proven if all Bernstein
+    /// coefficients are positive, after subdivision if necessary, and disproven by a corner of a part where
+    /// the determinant is not positive. Subdivision is bounded. The rest is undecided, which needs a
+    /// determinant that is nearly 0 inside the cell, or numbers beyond 2^-200 and 2^200.
+    ///
+    /// A field whose cells are all proven keeps the orientation and is one-to-one near each point. It is
+    /// one-to-one on the whole box if the image of the box's boundary is also simple. This is proven if all
+    /// samples on the boundary have the same displacement. In 2-D the image of the boundary is a polygon,
+    /// which is checked exactly if its vertices are representable. On a grid along the coordinate axes, the
+    /// field is also one-to-one if the displacements of any two places differ by less than the places do,
+    /// which is proven by bounds of the derivatives. Otherwise `one_to_one` is 0, which does not mean that
+    /// two places meet.
+    ///
+    /// - `field`: the grid and its values
+    /// - `capacity`: room for listed cells, or 0
+    /// - `cells` (out): the first cells that are not proven, in ascending order. The first axis is the
+    ///   fastest, with shape\[k\] - 1 cells along axis k. NULL if capacity is 0
+    /// - `kinds` (out): `ICC_CELL_*` of each listed cell. NULL if capacity is 0
+    /// - `report` (out): its `size` is set by the caller. All such cells are n_folded + n_undecided +
+    ///   n_missing
+    /// - `env`: may be NULL; results are the same for every number of threads
+    /// - `err`: may be NULL
+    ///
+    /// Returns `ICC_OK` once the check has run, whatever it found, or `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`,
+    /// `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: about 1 us a cell in 3-D, and 1 byte of memory.
+    pub fn icc_field_certify(
+        field: *const icc_field,
+        capacity: usize,
+        cells: *mut u32,
+        kinds: *mut i32,
+        report: *mut icc_field_report,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;

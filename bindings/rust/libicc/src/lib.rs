@@ -42,6 +42,7 @@ mod curves;
 mod domain;
 mod env;
 mod error;
+mod field;
 mod fit;
 mod function;
 mod grid;
@@ -78,6 +79,7 @@ pub use map::{
 };
 pub use matching::{Between, Match, MatchInfo, MatchOptions, Turning};
 pub use object::Borrowed;
+pub use field::{certify_field, FieldReport, Grid, Outside};
 pub use picture::{Interpolation, Layout, Picture, PictureMut};
 pub use slices::{flat, flat_mut, rows};
 
