@@ -282,6 +282,13 @@ void iccp_blob_size(iccp_blob *b, size_t *n)
     *n = b->status == ICC_OK ? (size_t)number : 0;
 }
 
+bool iccp_blob_follows(iccp_blob *b, const void *object)
+{
+    const uint64_t follows = visit_number(b, !b->reads && object != NULL, ICCP_U64);
+    iccp_blob_require(b, follows <= 1);
+    return b->status == ICC_OK && follows == 1;
+}
+
 void iccp_blob_count(iccp_blob *b, size_t size, size_t *n)
 {
     iccp_blob_size(b, n);

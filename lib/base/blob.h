@@ -47,6 +47,8 @@ void iccp_blob_f64(iccp_blob *b, size_t n, double *values);
 void iccp_blob_i32(iccp_blob *b, int n_bytes, int32_t least, int32_t most, int32_t *value);
 /* A count of items, as a u64. */
 void iccp_blob_size(iccp_blob *b, size_t *n);
+/* Tells if an object follows: writes whether there is one, or reads that. */
+bool iccp_blob_follows(iccp_blob *b, const void *object);
 /* A count of items that follow and take at least `size` bytes each. Reading fails if fewer bytes
  * are left, so nobody allocates more than the input can fill. */
 void iccp_blob_count(iccp_blob *b, size_t size, size_t *n);

@@ -359,12 +359,9 @@ static icc_status read_filling(iccp_blob *b, iccp_simplices **out, const icc_dom
 
 icc_status iccp_filling_visit(iccp_blob *b, iccp_simplices **mesh, const icc_domain *domain)
 {
-    uint64_t has_mesh = !b->reads && *mesh != NULL;
     if (b->reads)
         *mesh = NULL;
-    iccp_blob_u64(b, 1, &has_mesh);
-    iccp_blob_require(b, has_mesh <= 1);
-    if (has_mesh != 1 || b->status != ICC_OK)
+    if (!iccp_blob_follows(b, *mesh))
         return b->status;
     if (b->reads)
         return read_filling(b, mesh, domain);

@@ -62,6 +62,20 @@ static inline bool iccp_feature_allows(int32_t dim, int32_t kind, size_t n)
            (kind == ICC_FEATURE_LINE && n >= 2) || (kind == ICC_FEATURE_POINT && n == 1);
 }
 
+/* Returns the feature that a vertex belongs to, or UINT32_MAX for the outer ring or surface. */
+static inline uint32_t iccp_feature_of_vertex(const iccp_features *features, uint32_t vertex)
+{
+    size_t low = 0, high = features->n + 1;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (features->item[middle - 1].first <= vertex)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low > 0 ? (uint32_t)low - 1 : UINT32_MAX;
+}
+
 /* Returns the number of facets that icc_domain_get_boundary() lists. */
 static inline size_t iccp_domain_n_listed(const icc_domain *domain)
 {

@@ -19,9 +19,9 @@ typedef struct check {
     icc_error *err;
 } check;
 
-const char *iccp_feature_name(int32_t kind)
+const char *iccp_feature_name(int32_t dim, int32_t kind)
 {
-    return kind == ICC_FEATURE_HOLE    ? "a hole"
+    return kind == ICC_FEATURE_HOLE    ? (dim == 2 ? "a hole" : "a void")
            : kind == ICC_FEATURE_LINE  ? "a line"
            : kind == ICC_FEATURE_POINT ? "a point"
                                        : "a region";
@@ -31,10 +31,8 @@ const char *iccp_feature_text(const iccp_features *features, uint32_t feature, c
 {
     if (feature == NONE)
         return features->in_space ? "the outer surface" : "the outer ring";
-    const int32_t kind = features->item[feature].kind;
-    const bool is_void = features->in_space && kind == ICC_FEATURE_HOLE;
     (void)snprintf(text, ICCP_FEATURE_TEXT, "feature %lu (%s)", (unsigned long)feature,
-                   is_void ? "a void" : iccp_feature_name(kind));
+                   iccp_feature_name(features->in_space ? 3 : 2, features->item[feature].kind));
     return text;
 }
 

@@ -5,14 +5,13 @@
 
 #include "domain/features.h"
 
-/* Returns "a hole", "a line", "a point" or "a region". */
-const char *iccp_feature_name(int32_t kind);
+/* Returns "a hole", "a line", "a point" or "a region". A hole in 3-D is "a void". */
+const char *iccp_feature_name(int32_t dim, int32_t kind);
 
 /* Room for a text of iccp_feature_text(). */
 enum { ICCP_FEATURE_TEXT = 64 };
 
-/* Writes "feature 3 (a line)". For UINT32_MAX returns "the outer ring" or "the outer surface". A
- * hole in a solid is called a void. */
+/* Writes "feature 3 (a line)". For UINT32_MAX returns "the outer ring" or "the outer surface". */
 const char *iccp_feature_text(const iccp_features *features, uint32_t feature, char *text);
 
 /* Returns the number of a vertex or facet of the domain in its own feature. */

@@ -24,19 +24,6 @@ typedef struct build {
     iccp_defect found;
 } build;
 
-uint32_t iccp_feature_of_vertex(const iccp_features *features, uint32_t vertex)
-{
-    size_t low = 0, high = features->n + 1;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (features->item[middle - 1].first <= vertex)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low > 0 ? (uint32_t)low - 1 : NONE;
-}
-
 static bool is_ring(const iccp_features *features, uint32_t feature)
 {
     return feature == NONE || iccp_feature_is_ring(features->item[feature].kind);

@@ -60,9 +60,6 @@ static inline const iccp_network *iccp_network_of(const icc_domain *domain)
     return domain->features != NULL ? domain->features->network : NULL;
 }
 
-/* Returns the feature that a vertex belongs to, or UINT32_MAX for the outer ring. */
-uint32_t iccp_feature_of_vertex(const iccp_features *features, uint32_t vertex);
-
 /* Returns the feature that a facet belongs to, or UINT32_MAX for the outer ring. */
 static inline uint32_t iccp_feature_of_facet(const icc_domain *domain, uint32_t facet)
 {

@@ -97,19 +97,10 @@ icc_status iccp_solid_features_numbers(const iccp_features *features, const iccp
 
 /* -------------------------------------------------------------- coordinates */
 
-/* Returns the feature of a vertex, or NONE. */
-static uint32_t feature_of_vertex(const iccp_features *features, uint32_t v)
-{
-    uint32_t f = NONE;
-    while (f + 1 < features->n && features->item[f + 1].first <= v)
-        ++f;
-    return f;
-}
-
 static icc_status fail_number(const check *c, uint32_t v, const char *what)
 {
     const iccp_features *features = c->domain->features;
-    const uint32_t feature = feature_of_vertex(features, v);
+    const uint32_t feature = iccp_feature_of_vertex(features, v);
     icc_error own = {.size = sizeof own};
     const unsigned long number = iccp_feature_vertex(features, feature, v);
     (void)iccp_fail_at(&own, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)number, "vertex %lu %s",
@@ -220,7 +211,7 @@ static void name_facet(const check *c, named *n, uint32_t facet)
 static void name_wire(const check *c, named *n, const uint32_t ends[2])
 {
     const iccp_features *features = c->domain->features;
-    const uint32_t feature = feature_of_vertex(features, ends[0]);
+    const uint32_t feature = iccp_feature_of_vertex(features, ends[0]);
     name_corners(c, n, feature, 2, ends);
     n->number = iccp_feature_vertex(features, feature, ends[0]);
     n->noun = features->item[feature].kind == ICC_FEATURE_POINT ? "vertex" : "edge";

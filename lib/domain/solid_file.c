@@ -184,12 +184,9 @@ static icc_status read_mesh(iccp_blob *b, icc_domain **domain, const iccp_env *e
 icc_status iccp_solid_filling_visit(iccp_blob *b, iccp_simplices **mesh, const icc_domain *solid,
                                     const iccp_env *env)
 {
-    uint64_t has_mesh = !b->reads && *mesh != NULL;
     if (b->reads)
         *mesh = NULL;
-    iccp_blob_u64(b, 1, &has_mesh);
-    iccp_blob_require(b, has_mesh <= 1);
-    if (has_mesh != 1 || b->status != ICC_OK)
+    if (!iccp_blob_follows(b, *mesh))
         return b->status;
     if (!b->reads) {
         iccp_simplices copy = **mesh;
@@ -211,7 +208,6 @@ icc_status iccp_solid_filling_visit(iccp_blob *b, iccp_simplices **mesh, const i
 
 icc_status iccp_solid_visit(iccp_blob *b, icc_domain **domain, const iccp_env *env)
 {
-    uint64_t has_mesh = !b->reads && (*domain)->mesh != NULL;
     icc_status status = ICC_OK;
     if (b->reads)
         status = read_solid(b, domain, env);
@@ -219,9 +215,7 @@ icc_status iccp_solid_visit(iccp_blob *b, icc_domain **domain, const iccp_env *e
         write_solid(b, *domain);
     if (status != ICC_OK)
         return status;
-    iccp_blob_u64(b, 1, &has_mesh);
-    iccp_blob_require(b, has_mesh <= 1);
-    if (has_mesh != 1 || b->status != ICC_OK)
+    if (!iccp_blob_follows(b, (*domain)->mesh))
         return b->status;
     if (b->reads)
         return read_mesh(b, domain, env);

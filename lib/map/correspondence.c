@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "domain/features_check.h"
+#include "domain/nesting_same.h"
 #include "domain/network_same.h"
 
 static const char *turn_of(const icc_domain *domain)
@@ -20,8 +21,8 @@ static size_t count_parts(const iccp_features *features)
 
 /* Checks that feature i of both domains has one kind and the same number of vertices, and that
  * rings turn the same way. */
-static icc_status check_features(const iccp_features *source, const iccp_features *target,
-                                 icc_error *err)
+static icc_status check_features(int32_t dim, const iccp_features *source,
+                                 const iccp_features *target, icc_error *err)
 {
     const size_t n = source != NULL ? source->n : 0, m = target != NULL ? target->n : 0;
     const size_t n_parts = count_parts(source), m_parts = count_parts(target);
@@ -37,9 +38,10 @@ static icc_status check_features(const iccp_features *source, const iccp_feature
         if (a->kind != b->kind || a->n != b->n)
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
                                 "feature %zu is %s of %lu vertices, but in the source %s of "
-                                "%lu: vertex i must correspond to vertex i",
-                                i, iccp_feature_name(b->kind), (unsigned long)b->n,
-                                iccp_feature_name(a->kind), (unsigned long)a->n);
+                                "%lu: list the features of both in the same order, and vertex i "
+                                "must correspond to vertex i",
+                                i, iccp_feature_name(dim, b->kind), (unsigned long)b->n,
+                                iccp_feature_name(dim, a->kind), (unsigned long)a->n);
         if (a->n_facets != b->n_facets)
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
                                 "feature %zu has %lu facets, but in the source %lu", i,
@@ -48,7 +50,7 @@ static icc_status check_features(const iccp_features *source, const iccp_feature
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
                                 "feature %zu (%s) is %s, but in the source %s: both must turn "
                                 "the same way",
-                                i, iccp_feature_name(b->kind),
+                                i, iccp_feature_name(dim, b->kind),
                                 b->orientation > 0 ? "counter-clockwise" : "clockwise",
                                 a->orientation > 0 ? "counter-clockwise" : "clockwise");
     }
@@ -63,7 +65,8 @@ icc_status iccp_check_correspondence(const icc_domain *source, const icc_domain 
     if (source->dim != target->dim)
         status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has dimension %ld, the target %ld",
                            (long)source->dim, (long)target->dim);
-    else if ((status = check_features(source->features, target->features, err)) != ICC_OK)
+    else if ((status = check_features(source->dim, source->features, target->features, err)) !=
+             ICC_OK)
         return iccp_fail_side(err, status, 2);
     else if (source->n_vertices != target->n_vertices)
         status = iccp_fail(err, ICC_ERR_BOUNDARY,
@@ -85,6 +88,8 @@ icc_status iccp_check_correspondence(const icc_domain *source, const icc_domain 
                 "facet %zu does not join the same vertices in the target", i / (size_t)source->dim);
     if (status != ICC_OK)
         return iccp_fail_side(err, status, 2);
-    return source->features != NULL && source->dim == 2 ? iccp_network_same(source, target, err)
-                                                        : ICC_OK;
+    if (source->features == NULL)
+        return ICC_OK;
+    return source->dim == 2 ? iccp_network_same(source, target, err)
+                            : iccp_nesting_same(source, target, err);
 }

@@ -41,7 +41,7 @@ static uint32_t feature_near(const icc_domain *domain, const iccp_domain_parts *
 static const char *name_of(const icc_domain *domain, uint32_t feature)
 {
     return feature == NONE ? "the outer ring"
-                           : iccp_feature_name(domain->features->item[feature].kind);
+                           : iccp_feature_name(2, domain->features->item[feature].kind);
 }
 
 static int32_t kind_of(const iccp_domain_parts *parts, uint32_t feature)

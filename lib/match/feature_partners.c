@@ -43,7 +43,7 @@ static icc_status check(const iccp_spot *a, const iccp_spot *b, size_t n, const 
     iccp_fail_at(err, ICC_ERR_AMBIGUOUS, ICC_ITEM_FEATURE, (int64_t)a[i].number,
                  "feature %lu (%s) and feature %lu could go to one another's places almost as "
                  "well: give a landmark, a point of one of them and its partner's",
-                 (unsigned long)a[i].number, iccp_feature_name(all[a[i].number].kind),
+                 (unsigned long)a[i].number, iccp_feature_name(2, all[a[i].number].kind),
                  (unsigned long)a[k].number);
     return iccp_fail_side(err, ICC_ERR_AMBIGUOUS, 1);
 }

@@ -5,7 +5,7 @@
 #include "map/solid/solid_start.h"
 
 #include "base/clock.h"
-#include "fill/fill_domain.h"
+#include "fill/filled_pair.h"
 #include "map/solid/solid_chain.h"
 #include "map/solid/solid_edit.h"
 #include "map/solid/solid_pockets.h"
@@ -46,23 +46,21 @@ enum { N_STRATEGIES = sizeof STRATEGIES / sizeof *STRATEGIES };
 typedef struct map_pair {
     iccp_solid_map *map[2];
     iccp_direction ways[2];
-    icc_domain *filled; /* the target, filled for the other direction, or NULL */
+    icc_domain *filled; /* the target with a mesh, for the other direction, or NULL */
     size_t fewest;      /* the least number of inverted tetrahedra */
 } map_pair;
 
 /* Makes sure that the target has a mesh. *has is false if it cannot be filled. */
 static icc_status fill_target(map_pair *p, bool *has, const iccp_env *env)
 {
-    static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
     icc_status status = ICC_OK;
-    *has = true;
-    if (p->ways[1].source->mesh == NULL) {
-        status = iccp_domain_fill(&p->filled, p->ways[1].source, &options, env, NULL);
-        *has = status == ICC_OK;
-        if (*has)
-            p->ways[1].source = p->ways[0].target = p->filled;
+    if (p->filled == NULL)
+        status = iccp_fill_side(&p->filled, p->ways[1].source, 1, env, NULL);
+    *has = status == ICC_OK;
+    if (*has) {
+        p->ways[1].source = p->ways[0].target = p->filled;
+        p->map[1]->mesh = p->filled->mesh;
     }
-    p->map[1]->mesh = p->ways[1].source->mesh;
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "domain/features_check.h"
-#include "fill/fill_domain.h"
+#include "fill/filled_pair.h"
 #include "map/topology/witness_loop.h"
 
 #include <stdio.h>
@@ -86,10 +86,9 @@ enum { LIST_TEXT = 64 };
 static const char *name_surface(const icc_domain *domain, uint32_t vertex, char *text)
 {
     const iccp_features *features = domain->features;
-    for (uint32_t f = 0; features != NULL && f < features->n; ++f)
-        if (vertex - features->item[f].first < features->item[f].n)
-            return iccp_feature_text(features, f, text);
-    return "the outer surface";
+    return features != NULL
+               ? iccp_feature_text(features, iccp_feature_of_vertex(features, vertex), text)
+               : "the outer surface";
 }
 
 /* Lists vertices by the caller's numbers, as many as there is room for. */
@@ -167,7 +166,6 @@ static bool has_handles(const icc_domain *source, icc_status *status, const iccp
 icc_status iccp_solid_has_map(icc_domain **filled, const icc_domain *source,
                               const icc_domain *target, const iccp_env *env, icc_error *err)
 {
-    static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
     iccp_env part[2];
     iccp_bad_loop loop;
     bool exists;
@@ -176,13 +174,10 @@ icc_status iccp_solid_has_map(icc_domain **filled, const icc_domain *source,
     iccp_split(part, 2, (const double[]){2, 1}, env);
     if (!has_handles(source, &status, env))
         return iccp_explain(err, status);
-    if (target->mesh == NULL) {
-        status = iccp_domain_fill(filled, target, &options, &part[0], err);
-        if (status != ICC_OK)
-            return iccp_fail_side(err, status, 2);
-        target = *filled;
-    }
-    status = iccp_bad_loop_find(&loop, &exists, source->mesh, target->mesh, &part[1], err);
+    status = iccp_fill_side(filled, target, 1, &part[0], err);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_bad_loop_find(&loop, &exists, source->mesh, (*filled)->mesh, &part[1], err);
     if (status == ICC_OK && exists) {
         log_loop(&loop, source->mesh, env);
         status = refuse(&loop, source, err);

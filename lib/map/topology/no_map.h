@@ -49,9 +49,9 @@ icc_status iccp_bad_loop_find(iccp_bad_loop *loop, bool *exists, const iccp_simp
 void iccp_bad_loop_free(iccp_bad_loop *loop);
 
 /* Returns ICC_ERR_TOPOLOGY, with a message that names the handle's surface and the loop, if there
- * is no map from the source, which has a mesh, to the target. If the source has handles and the
- * target has no mesh, it is filled, and *filled becomes the filled target, which the caller
- * releases. Otherwise *filled is NULL. */
+ * is no map from the source, which has a mesh, to the target. If the source has handles, *filled
+ * becomes the target with a mesh (filled_pair.h), which the caller releases. Otherwise *filled is
+ * NULL. */
 icc_status iccp_solid_has_map(icc_domain **filled, const icc_domain *source,
                               const icc_domain *target, const iccp_env *env, icc_error *err);
 

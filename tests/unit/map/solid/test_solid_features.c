@@ -170,6 +170,71 @@ START_TEST(marks_stay)
 END_TEST
 
 /* Curve maps and ties are refused by name. */
+/* A big ball, two balls and a point: ball k is at (x, 0, 0) with that radius, the point at (at, 0, 0). */
+static icc_domain *nested(const double ball[2][2], double at)
+{
+    static surface outer;
+    double balls[2][18];
+    const double point[3] = {at, 0, 0};
+    icc_feature features[3] = {
+        {.size = sizeof *features, .kind = ICC_FEATURE_POINT, .n_vertices = 1, .vertices = point}};
+    icc_domain *domain;
+    surface_octahedron(&outer);
+    for (int k = 0; k < 2; ++k) {
+        for (int i = 0; i < 18; ++i)
+            balls[k][i] = ball[k][1] * outer.vertices[i] + (i % 3 == 0) * ball[k][0];
+        features[k + 1] = (icc_feature){.size = sizeof *features,
+                                        .kind = ICC_FEATURE_REGION,
+                                        .n_vertices = 6,
+                                        .vertices = balls[k],
+                                        .n_facets = 8,
+                                        .facets = outer.faces};
+    }
+    ck_assert_int_eq(icc_domain_create_solid(&domain, outer.n_vertices, outer.vertices,
+                                             outer.n_faces, outer.faces, 3, features, NULL, NULL),
+                     ICC_OK);
+    return domain;
+}
+
+static void check_refused(const icc_domain *source, const icc_domain *target, int64_t feature,
+                          const char *before, const char *after)
+{
+    icc_error err = {.size = sizeof err};
+    icc_map *map;
+    ck_assert_int_eq(icc_map_create(&map, source, target, NULL, NULL, &err), ICC_ERR_TOPOLOGY);
+    ck_assert_int_eq(err.item, ICC_ITEM_FEATURE);
+    ck_assert_int_eq(err.index, feature);
+    ck_assert_msg(strstr(err.message, before) != NULL && strstr(err.message, after) != NULL &&
+                      strstr(err.message, "same order") != NULL,
+                  "%s", err.message);
+}
+
+/* Balls beside one another, one in the other, and the other way round, with the point in a ball or
+ * in none. */
+START_TEST(features_stay_in_their_regions)
+{
+    static const double beside[2][2] = {{-0.5, 0.2}, {0.5, 0.2}},
+                        within[2][2] = {{0, 0.5}, {0, 0.2}}, around[2][2] = {{0, 0.2}, {0, 0.5}};
+    icc_domain *const d[] = {nested(beside, -0.5), nested(beside, 0.5), nested(beside, 0),
+                             nested(within, 0.1), nested(around, 0.1)};
+    icc_map *map;
+    check_refused(d[0], d[1], 0, "in feature 1 (a region) in the source",
+                  "in feature 2 (a region) in the target");
+    check_refused(d[2], d[1], 0, "outside all regions in the source",
+                  "in feature 2 (a region) in the target");
+    check_refused(d[1], d[3], 2, "outside all regions in the source",
+                  "in feature 1 (a region) in the target");
+    check_refused(d[3], d[4], 0, "in feature 2 (a region) in the source",
+                  "in feature 1 (a region) in the target");
+    ck_assert_int_eq(icc_map_create(&map, d[0], d[0], NULL, NULL, NULL), ICC_OK);
+    icc_map *moved = NULL;
+    ck_assert_int_eq(icc_map_retarget(&moved, map, d[1], NULL, NULL, NULL), ICC_ERR_TOPOLOGY);
+    icc_map_free(map);
+    for (size_t k = 0; k < sizeof d / sizeof *d; ++k)
+        icc_domain_free(d[k]);
+}
+END_TEST
+
 START_TEST(what_needs_charts)
 {
     icc_domain *source = body_of(0), *target = body_of(1);
@@ -217,6 +282,7 @@ int main(void)
     tcase_set_timeout(tcase, 300);
     tcase_add_test(tcase, all_features);
     tcase_add_test(tcase, marks_stay);
+    tcase_add_test(tcase, features_stay_in_their_regions);
     tcase_add_test(tcase, what_needs_charts);
     tcase_add_test(tcase, failures);
     suite_add_tcase(suite, tcase);

@@ -1,5 +1,5 @@
 /* Fills the surfaces of a pair of domains with tetrahedra. */
-#include "map/solid/filled_pair.h"
+#include "fill/filled_pair.h"
 
 #include "base/error.h"
 #include "base/threads.h"
