@@ -1,6 +1,8 @@
 /* Bounds of a cell's coefficients in plain arithmetic. */
 #include "sampled/cell.h"
 
+#include "base/minmax.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -102,7 +104,7 @@ static void round_edge(edge *out, double term[3][ICCP_CELL_TERMS], double *large
         const double difference = term[k][0] + term[k][1];
         out->v[k] = term[k][2] + difference;
         out->size[k] = fabs(term[k][2]) + fabs(difference);
-        *largest = fmax(*largest, out->size[k]);
+        *largest = iccp_max(*largest, out->size[k]);
     }
 }
 

@@ -2,6 +2,8 @@
  * arithmetic with bounds comes first, exact coefficients second. */
 #include "sampled/cell_sign.h"
 
+#include "base/minmax.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -89,7 +91,7 @@ int32_t iccp_cell_sign(const iccp_cell *cell, double *least, iccp_cell_work **wo
         return sign;
     for (size_t c = 0; c < cell->n_corners; ++c) {
         const size_t i = iccp_cell_corner(cell, c);
-        *least = fmin(*least, 0.5 * bounds.lower[i] + 0.5 * bounds.upper[i]);
+        *least = iccp_min(*least, 0.5 * bounds.lower[i] + 0.5 * bounds.upper[i]);
     }
     sign = subdivide(cell, &bounds);
     if (sign != ICC_CELL_UNDECIDED)

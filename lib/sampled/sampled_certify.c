@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "sampled/box.h"
 #include "sampled/cell_sign.h"
@@ -45,11 +46,11 @@ static double growth_of(const iccp_cell *cell, const icc_field *field)
                 const double edge = term[0] + term[1];
                 const double step = field->displacement ? 0 : field->step[dim * axis + k];
                 /* Two roundings: of the edge, and of its difference from the step. */
-                most = fmax(most, fabs(edge - step) + DBL_EPSILON * (fabs(edge) + fabs(step)));
+                most = iccp_max(most, fabs(edge - step) + DBL_EPSILON * (fabs(edge) + fabs(step)));
             }
             sum += most / fabs(field->step[dim * axis + axis]);
         }
-        worst = fmax(worst, sum);
+        worst = iccp_max(worst, sum);
     }
     return worst * (1 + 8 * DBL_EPSILON);
 }
@@ -168,7 +169,7 @@ icc_status iccp_sampled_certify(const icc_field *field, size_t capacity, uint32_
         list_cells(report, &j, capacity, cells, kinds);
         report->least = HUGE_VAL;
         for (size_t i = 0; i < n_chunks; ++i)
-            report->least = fmin(report->least, j.least[i]);
+            report->least = iccp_min(report->least, j.least[i]);
         report->least /= fabs(volume);
         status = conclude(report, &j, env);
     }

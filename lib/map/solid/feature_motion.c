@@ -2,6 +2,7 @@
  * linear interpolation of unit quaternions, scaled to length 1. */
 #include "map/solid/feature_motion.h"
 
+#include "base/minmax.h"
 #include "base/random.h"
 #include "domain/solid_domain.h"
 #include "geometry/simplex.h"
@@ -112,7 +113,7 @@ static void fit_rotation(size_t n, const double *a, const double *b, double *rot
         for (int k = 0; k < 9; ++k)
             sum[k] += b[3 * i + (size_t)k / 3] * a[3 * i + (size_t)k % 3];
     for (int k = 0; k < 9; ++k)
-        size = fmax(size, fabs(sum[k]));
+        size = iccp_max(size, fabs(sum[k]));
     for (int k = 0; k < 9; ++k)
         sum[k] += UNIT[k] * (size > 0 ? 0x1p-10 * size : 1);
     set_rotation(sum, rotation);
@@ -193,8 +194,8 @@ static void set_radius(const iccp_feature_motion *motion, size_t f)
     iccp_moving *m = &motion->item[f];
     for (size_t i = 0; i < item->n; ++i) {
         const size_t v = 3 * (item->first - features->n_outer + i);
-        m->radius = fmax(m->radius, iccp_vec_norm(3, motion->shape[0] + v));
-        m->radius = fmax(m->radius, m->shrinkage * iccp_vec_norm(3, motion->shape[1] + v));
+        m->radius = iccp_max(m->radius, iccp_vec_norm(3, motion->shape[0] + v));
+        m->radius = iccp_max(m->radius, m->shrinkage * iccp_vec_norm(3, motion->shape[1] + v));
     }
 }
 
@@ -433,7 +434,8 @@ static double room_at(const iccp_feature_motion *motion, const icc_domain *body,
         if (g == f || other->parent != m->parent)
             continue;
         place_on_way(other, at, its);
-        room = fmin(room, iccp_vec_distance(3, own, its) - at->scale * (m->radius + other->radius));
+        room = iccp_min(room,
+                        iccp_vec_distance(3, own, its) - at->scale * (m->radius + other->radius));
     }
     return room;
 }
@@ -444,7 +446,7 @@ static double room_of(const iccp_feature_motion *motion, const icc_domain *body,
     double least = HUGE_VAL;
     for (int k = 0; k <= MOMENTS; ++k) {
         const moment at = {false, motion->scale, (double)k / MOMENTS};
-        least = fmin(least, room_at(motion, body, &at, f));
+        least = iccp_min(least, room_at(motion, body, &at, f));
     }
     return least;
 }
@@ -481,6 +483,6 @@ double iccp_feature_motion_bend(iccp_feature_motion *motion, const icc_domain *b
             bend_one(motion, body, f, LONGEST_BEND * longest, &random);
     }
     for (size_t f = 0; f < motion->n; ++f)
-        least = fmin(least, room_of(motion, body, f));
+        least = iccp_min(least, room_of(motion, body, f));
     return least / size;
 }

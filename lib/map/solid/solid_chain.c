@@ -3,6 +3,7 @@
 #include "map/solid/solid_chain.h"
 
 #include "base/clock.h"
+#include "base/minmax.h"
 #include "fill/fill_domain.h"
 #include "map/energy/singular.h"
 #include "map/solid/feature_motion.h"
@@ -162,7 +163,7 @@ static icc_status go(chain *c, iccp_motion_stage stage, bool *done, const iccp_e
     for (size_t k = 0; status == ICC_OK && time < 1 && length >= LEAST && c->n_steps < MOST_STEPS;
          ++k) {
         const iccp_env part = iccp_round(env, k, 4);
-        const double next = fmin(1, time + length);
+        const double next = iccp_min(1, time + length);
         bool moved;
         status = step(c, stage, next, &moved, &part);
         time = moved ? next : time;
