@@ -1,40 +1,45 @@
 /* Foreign formats by group, and the remedies that messages name. */
 #include "base/foreign_table.h"
 
+/* The Python package reads these formats with well-kept libraries: docs/howto/formats.md. */
+#define FRONT "; 'python3 -m libicc' takes it as it is"
+
 const char *const foreign_remedies[] = {
     [MAKE_GEOJSON] =
         "'ogr2ogr -f GeoJSON OUT.geojson FILE' makes GeoJSON of it (of several layers, "
-        "name one after FILE)",
+        "name one after FILE)" FRONT,
     [MAKE_GEOJSON_OF_TRACKS] = "'ogr2ogr -f GeoJSON OUT.geojson FILE tracks' makes GeoJSON of it "
-                               "(or routes, waypoints)",
+                               "(or routes, waypoints)" FRONT,
     [MAKE_GEOJSON_OF_AREAS] =
         "'ogr2ogr -f GeoJSON OUT.geojson FILE multipolygons' makes GeoJSON of it "
-        "(or lines, points)",
+        "(or lines, points)" FRONT,
     [MAKE_GEOJSON_OF_TEXT] =
         "'ogr2ogr -f GeoJSON OUT.geojson FILE -oo GEOM_POSSIBLE_NAMES=WKT,geom* "
-        "-oo X_POSSIBLE_NAMES=x,lon* -oo Y_POSSIBLE_NAMES=y,lat*' makes GeoJSON of it",
-    [MAKE_VTK] = "'meshio convert --ascii FILE OUT.vtk' makes VTK of it (Debian: meshio-tools)",
+        "-oo X_POSSIBLE_NAMES=x,lon* -oo Y_POSSIBLE_NAMES=y,lat*' makes GeoJSON of it" FRONT,
+    [MAKE_VTK] =
+        "'meshio convert --ascii FILE OUT.vtk' makes VTK of it (Debian: meshio-tools)" FRONT,
     [MAKE_OBJ] = "'assimp export FILE OUT.obj' makes OBJ of it, as Blender does",
     [MAKE_GLB] = "'assimp export FILE OUT.glb -fglb2' makes one file (.glb) of it, as Blender does",
     [MAKE_STL] = "'gmsh FILE -2 -o OUT.stl' makes STL of its surface, as FreeCAD does",
     [MAKE_STL_OF_PRINTS] = "'prusa-slicer --export-stl -o OUT.stl FILE' makes STL of it",
-    [MAKE_PNG] = "'convert FILE OUT.png' makes a PNG picture of it (ImageMagick)",
+    [MAKE_PNG] = "'convert FILE OUT.png' makes a PNG picture of it (ImageMagick)" FRONT,
     [MAKE_PNG_OR_KEEP] =
         "gdalwarp (libicc fit or map --triangulation) and Python (libicc.raster) keep its "
-        "values and its place; 'convert FILE OUT.png' makes a plain PNG picture of it",
+        "values and its place; 'convert FILE OUT.png' makes a plain PNG picture of it" FRONT,
     [MAKE_SVG] = "'pdftocairo -svg FILE OUT.svg' makes an SVG drawing of it",
     [MAKE_MASK] = "'python3 -c \"import sys, numpy, SimpleITK as s; numpy.save(sys.argv[2], "
                   "s.GetArrayFromImage(s.ReadImage(sys.argv[1])) > 0)\" FILE OUT.npy' makes a mask "
-                  "of it",
+                  "of it" FRONT,
     [MAKE_ARRAY] = "save one array of it as .npy (numpy.save in Python)",
     [MAKE_ARRAY_OR_VTK] =
         "if it is a mesh (Exodus, CGNS, MED), 'meshio convert --ascii FILE OUT.vtk' "
-        "makes VTK of it (Debian: meshio-tools); else save one array as .npy",
-    [MAKE_WKT] = "'python3 -c \"import sys, shapely.wkb as w; "
-                 "print(w.loads(sys.stdin.buffer.read()).wkt)\" < FILE > OUT.wkt' makes text of it",
+        "makes VTK of it (Debian: meshio-tools); else save one array as .npy" FRONT,
+    [MAKE_WKT] =
+        "'python3 -c \"import sys, shapely.wkb as w; "
+        "print(w.loads(sys.stdin.buffer.read()).wkt)\" < FILE > OUT.wkt' makes text of it" FRONT,
     [MAKE_WKT_OF_DIGITS] =
         "ST_AsText gives text, and 'python3 -c \"import sys, shapely.wkb as w; "
-        "print(w.loads(sys.stdin.read().strip(), hex=True).wkt)\" < FILE > OUT.wkt' makes it",
+        "print(w.loads(sys.stdin.read().strip(), hex=True).wkt)\" < FILE > OUT.wkt' makes it" FRONT,
     [MAKE_UTF8] = "'iconv -f UTF-16 -t UTF-8 FILE > OUT.txt' makes UTF-8 of it",
     [MAKE_POINTS] = "'grep -v \"^#\" FILE | cut -d, -f2-4 > OUT.csv' makes points of it",
     [MAKE_POINTS_OF_JSON] = "'jq -r \".markups[].controlPoints[].position | @csv\" FILE > OUT.csv' "

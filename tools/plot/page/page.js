@@ -6,7 +6,7 @@ const map = { before: new Float32Array(bytesOf(data.before)), after: new Float32
   cells: new Uint32Array(bytesOf(data.cells)) };
 const TINTS = [[0.85, 0.42, 0.45], [0.36, 0.62, 0.85], [0.50, 0.72, 0.42], [0.70, 0.52, 0.82], [0.90, 0.65, 0.30], [0.35, 0.72, 0.70]];
 const parts = data.parts.map((part, i) => ({ ...part, facets: new Uint32Array(bytesOf(part.facets)), tint: TINTS[i % TINTS.length] }));
-const look = { turn: 0.6, tilt: -0.35, distance: 3.8 }, zoom = { scale: 1 };
+const look = { turn: 0.6, tilt: -0.35, distance: 2.7 }, zoom = { scale: 1 };
 
 /** The greatest and least factor by which a cell of the map stretches lengths, from its edges before and after. */
 function stretchOf(cell) {
@@ -179,7 +179,8 @@ function listen(canvas) {
 }
 
 document.body.className = dim === 3 ? 'solid' : 'flat';
-$('names').textContent = `${data.source} → ${data.target}`;
+const base = (name) => name.split(/[\\/]/).pop();
+$('names').textContent = `${base(data.source)} → ${base(data.target)}`;
 $('badge').textContent = data.certified ? '✓ certified one-to-one' : '✗ not certified';
 $('badge').className = data.certified ? 'good' : '';
 $('words').textContent = data.words;
