@@ -90,4 +90,21 @@ spoilt 's/ 10 20 40$/ 10 20 41/' '18: an element has a node with the tag 41'
 spoilt 's/^9 4 2/9 29 2/' "18: an element of Gmsh's type 29"
 spoilt 's/^10 /3 /' ' two nodes have the tag 3'
 spoilt '/EndNodeData/d' "20: the section 'NodeData' has no end"
+# A mesh is its own cage: its boundary, in space and in the plane.
+cage() {
+    printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 %s 0 0\n3 %s 1 0\n4 0 %s\n$EndNodes\n' "$1" "$2" "$3"
+    printf '$Elements\n%s\n$EndElements\n' "$4"
+}
+cage 1 0 '0 1' '1
+1 4 2 0 1 1 2 3 4' >corner.msh
+cage 2 0 '0 1' '1
+1 4 2 0 1 1 2 3 4' >stretched.msh
+echo '0.25 0.25 0.25' >one.txt
+run 0 map -s corner.msh -t stretched.msh -p one.txt
+echo '0.5 0.25 0.25' | close_to out - 1e-12
+cage 1 1 '1 0' '2
+1 2 2 0 1 1 2 3
+2 2 2 0 1 1 3 4' >square.msh
+run 0 check -s square.msh
+holds out 'a simple polygon, 4 vertices, counter-clockwise, area 1'
 finish

@@ -88,7 +88,7 @@ static bool read_any(cage *out, const cage_choice *choice, size_t dim, const cha
     const char *first = skip_comments(p);
     if (mesh_is_stl(text, n) || mesh_is_glb(text, n) || is_word(p, "ply") ||
         is_word(first, "OFF") || is_obj(first) || strncmp(p, "# vtk DataFile", 14) == 0 ||
-        strncmp(first, "MeshVersion", 11) == 0)
+        strncmp(first, "MeshVersion", 11) == 0 || strncmp(p, "$MeshFormat", 11) == 0)
         return cage_read_surface(out, choice, dim, text, n, wrong);
     if (npy_told(text, n))
         return cage_read_npy(out, text, n, wrong);

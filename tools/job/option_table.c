@@ -74,8 +74,9 @@ const option options[] = {
      .commands = HAS_CAGES | FOR_ANIMATE,
      .offset = AT(source),
      .value = "FILE",
-     .help = "the cage before: text, CSV, GeoJSON, WKT or SVG; in space OBJ, OFF, PLY, STL or "
-             "glTF; a Medit or VTK mesh; a .npy mask. FILE#name=Kent takes one shape of several"},
+     .help =
+         "the cage before: text, CSV, GeoJSON, WKT or SVG; in space OBJ, OFF, PLY, STL or "
+         "glTF; a Medit, VTK or Gmsh mesh; a .npy mask. FILE#name=Kent takes one shape of several"},
     {.name = "source",
      .letter = 's',
      .kind = OPTION_TEXT,
