@@ -51,6 +51,28 @@ run 0 animate -s before.txt --background 00ff0080 fish.png clear.png after.txt
 run 0 warp -s before.txt -t after.txt --background 00ff0080 fish.png warped.png
 same clear-0000.png warped.png "with a background"
 
+# A film: one file, whose first picture is a PNG of its own.
+run 0 animate -s before.txt --steps 2 --rate 10 fish.png film.apng before.txt after.txt
+run 0 animate -s before.txt --steps 2 fish.png single.png before.txt after.txt
+[ "$(grep -ac fcTL film.apng)" -ge 1 ] || complain "film.apng is no film"
+run 0 warp -s before.txt -t after.txt film.apng of_film.png
+run 0 warp -s before.txt -t after.txt single-0000.png of_single.png
+same of_film.png of_single.png "the first picture of a film"
+if /usr/bin/python3 -c 'import PIL' 2>/dev/null; then
+    /usr/bin/python3 - <<'END' || complain "a film has other pictures than single files"
+from PIL import Image
+film = Image.open("film.apng")
+assert film.n_frames == 3 and film.info["duration"] == 100
+for k in range(3):
+    film.seek(k)
+    assert film.convert("RGBA").tobytes() == Image.open("single-%04d.png" % k).convert("RGBA").tobytes()
+END
+fi
+run 2 animate -s before.txt --rate 10 fish.png f.png after.txt
+says "--rate is for films, whose OUT is named .apng"
+run 1 animate -s before.txt fish.png crossed.apng before.txt source_of_nothing.txt
+[ ! -e crossed.apng ] || complain "a film that failed is left behind"
+
 # Each frame beside a chain of single calls from Python.
 export PYTHONPATH="$here/../../bindings/python" PYTHONDONTWRITEBYTECODE=1
 if /usr/bin/python3 -c 'import libicc, PIL' 2>/dev/null; then

@@ -11,6 +11,7 @@
 #include "job/call_files.h"
 #include "job/job.h"
 #include "plot/coverage.h"
+#include "plot/film.h"
 #include "plot/picture_file.h"
 #include "plot/picture_warp.h"
 #include "report/reason.h"
@@ -37,6 +38,7 @@ typedef struct animation {
                   progress */
     picture from, empty; /* the picture that is read, and the empty one that frames are drawn on */
     picture_style style;
+    film film;    /* if is_film() */
     icc_map *map; /* to the cage of the present frame, if it is not the first */
     size_t frame, n_frames;
     frame_facts *frames; /* n_frames; those before `frame` are known */
@@ -68,9 +70,42 @@ static int read_keys(animation *x)
 static int read_picture(animation *x)
 {
     const args *a = x->args;
+    if (a->rate > 0 && !is_film(a->operands[1]))
+        return misused(a->command, "--rate is for films, whose OUT is named .apng");
     int result = picture_read(&x->from, a->operands[0]);
-    return result == DONE ? picture_begin(&x->empty, &x->style, &x->from, a, a->operands[1])
-                          : result;
+    const char *name = is_film(a->operands[1]) ? "film.png" : a->operands[1];
+    return result == DONE ? picture_begin(&x->empty, &x->style, &x->from, a, name) : result;
+}
+
+/* Adds a picture to the film. */
+static int add_to_film(animation *x, const picture *p)
+{
+    enum { RATE = 25 };
+    const args *a = x->args;
+    problem wrong;
+    size_t n;
+    unsigned char *png = picture_encode(p, &x->style, &n, &wrong);
+    if (png == NULL)
+        return failed(a->operands[1], 0, "%s", wrong.text);
+    if (x->frame == 0 && !film_open(&x->film, a->operands[1], (uint32_t)x->n_frames,
+                                    a->rate > 0 ? (uint32_t)a->rate : RATE)) {
+        free(png);
+        return FAILED;
+    }
+    film_add(&x->film, png, n);
+    free(png);
+    return DONE;
+}
+
+/* Writes a picture to a file of its own, or adds it to the film. */
+static int save(animation *x, const picture *p)
+{
+    if (is_film(x->args->operands[1]))
+        return add_to_film(x, p);
+    char *name = frame_name(x->args->operands[1], x->frame);
+    int result = picture_save(p, &x->style, name);
+    free(name);
+    return result;
 }
 
 /* Announces one more library call for a frame. */
@@ -89,9 +124,7 @@ static int write_frame(animation *x, const icc_map *map)
     icc_status status = picture_warp(map, &x->from, &to, &facts->n_failed, &j->env, &err);
     int result = DONE;
     if (status == ICC_OK) {
-        char *name = frame_name(x->args->operands[1], x->frame);
-        result = picture_save(&to, &x->style, name);
-        free(name);
+        result = save(x, &to);
     } else {
         result = job_failed(j, &err);
     }
@@ -146,6 +179,11 @@ static int write_frames(animation *x)
     for (size_t key = 1; key < x->n_keys; key++)
         for (size_t i = 1; i <= steps && result == DONE; i++)
             result = follow(x, key, i < steps ? (double)i / (double)steps : 1);
+    if (x->film.file.stream == NULL)
+        return result;
+    if (result == DONE)
+        return film_close(&x->film) ? DONE : FAILED;
+    film_abandon(&x->film);
     return result;
 }
 

@@ -44,6 +44,7 @@ typedef struct args {
     int32_t require;     /* required of the result, or nothing is written; 0: nothing */
     int32_t fallback;    /* of triangulations; 0: none */
     int32_t quality;     /* of JPEG; 0: not given */
+    int32_t rate;        /* frames of a film in a second; 0: not given */
     int32_t turning;     /* of outlines to match; 0: the library's choice */
     int32_t y_down_side; /* the cages in which y points down; 0: not given */
     double snap;         /* below 0: the command's choice */

@@ -69,9 +69,10 @@ static bool call_input(call_file *out, const args *a, const command *c, size_t i
 /* The formats that the last operand may have, before its input has been read. */
 static const char *formats_of_operand(const args *a, const command *c)
 {
-    return a->geojson ? "GeoJSON, GeoJSONSeq, JSON"
-           : c->bit & (FOR_WARP | FOR_ANIMATE) || a->warps || a->rectifies ? PICTURES
-           : a->fill                                                       ? "Medit, VTK"
+    return a->geojson                                      ? "GeoJSON, GeoJSONSeq, JSON"
+           : c->bit & FOR_ANIMATE                          ? PICTURES ", animated PNG"
+           : c->bit & FOR_WARP || a->warps || a->rectifies ? PICTURES
+           : a->fill                                       ? "Medit, VTK"
            : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK, Gmsh"
            : c->bit & FOR_PLOT               ? "SVG, PNG, VTK, HTML"
            : c->bit & FOR_POSE && a->binding ? "text"
@@ -189,11 +190,19 @@ int call_outputs_check(const args *a, const command *c)
     return result == DONE ? check_outputs_apart(a, c) : result;
 }
 
+bool is_film(const char *out)
+{
+    const char *format = output_format(out);
+    return format != NULL && strcmp(format, "animated PNG") == 0;
+}
+
 char *frame_name(const char *out, size_t frame)
 {
     const char *dot = strrchr(system_last_part(out), '.');
     size_t n_stem = dot != NULL ? (size_t)(dot - out) : strlen(out), n = strlen(out) + 32;
     char *result = need(n, 1);
+    if (is_film(out))
+        return strcpy(result, out);
     snprintf(result, n, "%.*s-%04zu%s", (int)n_stem, out, frame, out + n_stem);
     return result;
 }

@@ -24,7 +24,11 @@ int call_inputs_check(const args *a, const command *c);
  * all of it has an image. */
 int call_outputs_check(const args *a, const command *c);
 
-/* The name of a frame of `animate`: OUT with a number before its extension. free() it. */
+/* True if the frames of `animate` become one film: OUT is named .apng. */
+bool is_film(const char *out);
+
+/* The name of a frame of `animate`: OUT with a number before its extension, or OUT for a film.
+ * free() it. */
 char *frame_name(const char *out, size_t frame);
 
 /* The number of frames that `animate` writes. */

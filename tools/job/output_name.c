@@ -32,6 +32,7 @@ static const struct {
     {"TSV", "tsv"},
     {"spreadsheet", "xls xlsx ods"},
     {"PNG", "png"},
+    {"animated PNG", "apng"},
     {"JPEG", "jpg jpeg jpe jfif"},
     {"TIFF", "tif tiff"},
     {"GIF", "gif"},
