@@ -2,7 +2,7 @@
  * as the same, from JPEG as one of the same size. Each input is tried as it is, and as a PNG with
  * the checksums of its chunks put right, behind which most of the reader lies. */
 #include "fuzz.h"
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include <math.h>
 #include <zlib.h>

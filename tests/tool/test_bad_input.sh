@@ -41,7 +41,7 @@ printf '0 0\n\000\n1 1\n' | rejects 2: 'zero byte'
 printf '0 0\n\001\377\n1 1\n' | rejects 2: "'??' is not a number"
 printf 'OFF\n3 1 0\n' | rejects 3: 'the file ends early'
 printf '\223NUMPY\001' | rejects ' ' 'this .npy file has version 0'
-printf '\211PNG\r\n' | rejects ' ' 'a PNG picture'
+printf '\211PNG\r\n' | rejects ' ' 'the PNG picture is damaged'
 
 # Geometry.
 printf '0 0\n10 0\n10 10\n5 -5\n0 10\n3 3\n' | rejects 1: 'the edge from vertex 0 crosses the edge from vertex 2 (line 3)'

@@ -61,7 +61,7 @@ says 'libicc: l.npy: a mask cannot be a target'
 run 1 map -s l.txt -t l.npy -p points.txt
 says 'libicc: l.npy: a mask cannot be a target'
 run 1 check -s l.txt --boundary out.txt
-says 'libicc: l.txt: this is not a mask'
+says 'libicc: l.txt: this is neither a mask nor a picture'
 
 # A boundary whose columns are swapped is the cage of a picture that is laid out like the mask; the mask itself is not, and says so.
 { npy 1 "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 4), }" && bytes 1 1 1 0 1 1 1 0 0 0 0 0; } >wide.npy

@@ -129,12 +129,12 @@ run 0 match -s small.txt -t large.svg --flatten .01 -o c.txt --target-output d.t
 same c.txt a.txt 'edges of the source are those it has by itself'
 same d.txt b.txt 'the target does not depend on them'
 run 1 match -s corners.txt -t corners.txt --flatten 1 -o a.txt --target-output b.txt
-says "libicc: corners.txt: there are no curves to flatten; only SVG has them"
+says "libicc: corners.txt: there are no curves to flatten; only SVG and outlines of pictures have them"
 
 run 1 check -s circle.svg --flatten 1e-9
 says "libicc: circle.svg:2: --flatten makes more than 1024 edges of a curve"
 run 1 check -s corners.txt --flatten 1
-says "libicc: corners.txt: there are no curves to flatten; only SVG has them"
+says "libicc: corners.txt: there are no curves to flatten; only SVG and outlines of pictures have them"
 
 # Among several: by the role, by id, by label, by another attribute; one path or polygon counts before other shapes.
 printf '<rect width="9" height="9"/><path d="M0 0H5V5z"/>' | draw before

@@ -19,6 +19,7 @@
  * Ways
  * - SVG: cage_svg.c, its tags svg_tags.h, transforms svg_transform.h, path data cage_path.c, arcs
  *   svg_arc.h, outlines and holes contours.h.
+ * - Pictures: cage_picture.c, alpha_contours.h finds outlines, thin_polygons.h thins them.
  * - Features: cage_features.h, ties cage_ties.h. Degrees: cage_degrees.h. Defects: cage_defects.h.
  * - Surfaces: cage_surface.c reads, weld.h joins vertices, mend.h mends scans (sides.h finds which
  *   triangles meet), surface_write.h writes, filling.h and tetgen.c fill. Frames of an animation: cage_between.h.
@@ -91,6 +92,7 @@ typedef struct cage {
                                   NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
     bool cut;                  /* it was cut at the antimeridian into several polygons */
+    bool of_picture;           /* the outline of what is opaque in a picture */
     bool flipped;              /* y is reversed: the file has the opposite sign */
     size_t n_sliding;          /* vertices of a text whose row says that they may slide along a
                                   wall; their coordinates are nan */

@@ -6,6 +6,7 @@
 #include "cage/cage_features.h"
 #include "cage/cage_readers.h"
 #include "mesh/mesh_file.h"
+#include "picture/picture_file.h"
 
 #include <string.h>
 
@@ -77,6 +78,9 @@ static bool read_any(cage *out, const cage_choice *choice, size_t dim, const cha
                      problem *wrong)
 {
     const char *p = first_word(text, n);
+    out->dim = 2;
+    if (picture_told(text, n) == PICTURE_PNG)
+        return cage_read_picture(out, choice, text, n, wrong);
     if (foreign_told(text, n, wrong))
         return false;
     if (choice->named != NULL && !is_json(p) && *p != '<') {

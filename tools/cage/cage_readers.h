@@ -16,6 +16,9 @@ bool cage_read_svg(cage *out, const cage_choice *choice, const char *text, size_
 bool cage_geojson_has(cage_role role, const char *text, size_t n);
 bool cage_svg_has(cage_role role, const char *text);
 
+/* Reads the outline of what is opaque in a picture, within `choice->flat.length` pixels. */
+bool cage_read_picture(cage *out, const cage_choice *choice, const char *text, size_t n,
+                       problem *wrong);
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
 /* Reads OBJ, OFF, PLY, STL, glTF, Medit and VTK. The result is a surface in space, whose larger

@@ -10,9 +10,10 @@
 #include "cage/cage_between.h"
 #include "job/call_files.h"
 #include "job/job.h"
+#include "picture/picture_file.h"
 #include "plot/coverage.h"
 #include "plot/film.h"
-#include "plot/picture_file.h"
+#include "plot/picture_begin.h"
 #include "plot/picture_warp.h"
 #include "report/reason.h"
 

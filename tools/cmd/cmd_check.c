@@ -101,8 +101,15 @@ static int check_options(const check *c)
 {
     const args *a = c->job.args;
     bool mask = c->job.cages[0].cells != NULL;
-    if (a->boundary != NULL && !mask)
-        return failed(a->source, 0, "this is not a mask; --boundary needs one");
+    bool cutout = c->job.cages[0].of_picture;
+    if (a->boundary != NULL && !mask && !cutout)
+        return failed(a->source, 0,
+                      "this is neither a mask nor a picture; --boundary needs one of them");
+    if (cutout && a->boundary != NULL && !output_is_json(a->boundary) &&
+        c->job.cages[0].n_features > 0)
+        return failed(a->source, 0,
+                      "the picture has several parts or holes, which lines of `x y` cannot hold; "
+                      "name the file of --boundary .geojson");
     if (a->repair != NULL && !in_plane(c) && !check_is_alone(c))
         return failed(a->source, 0,
                       "--repair is for cages in the plane, and for surfaces and masks without a "
@@ -110,7 +117,9 @@ static int check_options(const check *c)
     if (a->repair != NULL && c->job.cages[0].n_features > 0)
         return failed(a->source, 0, "--repair is for cages without holes, lines or points inside");
     return output_fits(a->command, a->boundary,
-                       job_dim(&c->job) == 3 ? "text, " SURFACES : "text") == DONE
+                       job_dim(&c->job) == 3           ? "text, " SURFACES
+                       : c->job.cages[0].cells != NULL ? "text"
+                                                       : "text, GeoJSON, JSON") == DONE
                ? output_fits(a->command, a->repair, repaired_formats(c))
                : MISUSED;
 }

@@ -7,7 +7,7 @@
 #include "base/say.h"
 #include "base/system.h"
 #include "cmd/demo_picture.h"
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
 #include "kernel/pose_job.h"
 #include "mesh/mesh_file.h"
 #include "mesh/tally.h"
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,9 @@
 
 #include "base/system.h"
 #include "job/job.h"
+#include "picture/picture_file.h"
 #include "plot/coverage.h"
-#include "plot/picture_file.h"
+#include "plot/picture_begin.h"
 #include "plot/picture_warp.h"
 
 typedef struct warp {

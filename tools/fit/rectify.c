@@ -13,7 +13,8 @@
 #include "base/system.h"
 #include "job/output_name.h"
 #include "job/require.h"
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
+#include "plot/picture_begin.h"
 #include "plot/picture_warp.h"
 
 #include <math.h>

@@ -91,7 +91,7 @@ bool call_output(call_file *out, const args *a, const command *c, size_t i)
         {a->target_mesh_out, "--target-mesh-out", "Medit"},
         {a->ties, "--ties", "GeoJSON, JSON"},
         {a->repair, "--repair", "text, GeoJSON, JSON, " SURFACES ", NumPy"},
-        {a->boundary, "--boundary", "text, " SURFACES},
+        {a->boundary, "--boundary", "text, GeoJSON, JSON, " SURFACES},
         {a->picture, "--picture", "SVG"},
         {a->drawing, "--plot", "SVG"},
         {c->bit & FOR_WEIGHTS ? a->binding : NULL, "--binding", "libicc's own"},

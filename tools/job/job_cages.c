@@ -119,8 +119,11 @@ static int read_source_again(job *j, const char *named, const char *text, size_t
 
 static int check_curves(const job *j)
 {
-    return j->args->flatten > 0 && j->cages[0].n_curves + j->cages[1].n_curves == 0
-               ? failed(job_file(j, 1), 0, "there are no curves to flatten; only SVG has them")
+    bool curved = j->cages[0].n_curves + j->cages[1].n_curves > 0 || j->cages[0].of_picture;
+    return j->args->flatten > 0 && !curved
+               ? failed(
+                     job_file(j, 1), 0,
+                     "there are no curves to flatten; only SVG and outlines of pictures have them")
                : DONE;
 }
 

@@ -4,7 +4,7 @@
 
 #include "geo/carrier.h"
 #include "kernel/kernel_job.h"
-#include "plot/picture.h"
+#include "picture/picture.h"
 
 typedef struct pose {
     kernel_job kernel;

@@ -6,7 +6,8 @@
 #include "base/allocate.h"
 #include "base/orientation.h"
 #include "base/system.h"
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
+#include "plot/picture_begin.h"
 #include "plot/picture_sample.h"
 
 #include <icc/stages.h>

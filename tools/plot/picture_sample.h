@@ -2,7 +2,7 @@
 #ifndef PICTURE_SAMPLE_H
 #define PICTURE_SAMPLE_H
 
-#include "plot/picture.h"
+#include "picture/picture.h"
 
 /* Gives a pixel of `to` the colour of `from` at a place, bilinearly. Both have the same channels
  * and depth. */

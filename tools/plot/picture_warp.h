@@ -2,7 +2,7 @@
 #ifndef PICTURE_WARP_H
 #define PICTURE_WARP_H
 
-#include "plot/picture.h"
+#include "picture/picture.h"
 
 #include <icc/icc.h>
 

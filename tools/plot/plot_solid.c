@@ -4,7 +4,7 @@
 
 #include "base/allocate.h"
 #include "job/output_name.h"
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 #include "plot/solid_cut.h"
 #include "plot/z_buffer.h"
 

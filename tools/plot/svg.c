@@ -2,7 +2,7 @@
 #include "plot/svg.h"
 
 #include "base/allocate.h"
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include <stdlib.h>
 

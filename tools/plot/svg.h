@@ -2,7 +2,7 @@
 #ifndef SVG_H
 #define SVG_H
 
-#include "plot/picture.h"
+#include "picture/picture.h"
 
 #include <stdio.h>
 

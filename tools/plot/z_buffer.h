@@ -3,7 +3,7 @@
 #ifndef Z_BUFFER_H
 #define Z_BUFFER_H
 
-#include "plot/picture.h"
+#include "picture/picture.h"
 
 /* Samples along the side of a pixel. */
 enum { Z_BUFFER_SAMPLES = 4 };

@@ -3,7 +3,9 @@
 
 bool check_is_alone(const check *c)
 {
-    return c->job.args->target == NULL && (c->job.cages[0].cells != NULL || job_dim(&c->job) == 3);
+    const cage *source = &c->job.cages[0];
+    return c->job.args->target == NULL &&
+           (source->cells != NULL || source->of_picture || job_dim(&c->job) == 3);
 }
 
 bool check_domain_only(const check *c)

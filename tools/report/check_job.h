@@ -26,7 +26,7 @@ typedef struct check {
 /* Lists the defects of the outer rings of cages in the plane. */
 int check_find_defects(check *c);
 
-/* True if there is only a mask or a surface, without a target. */
+/* True if there is only a mask, a surface or a picture, without a target. */
 bool check_is_alone(const check *c);
 
 /* True if only that is checked, and no chart of it. For a surface an option may ask for a chart. */

@@ -102,7 +102,7 @@ void check_print_domains(const check *c)
         printf("%s: ", job_file(&c->job, (int)side + 1));
         print_domain(&c->job.cages[side], &info, c->job.n_added);
     }
-    if (check_domain_only(c) && c->job.cages[0].cells == NULL)
+    if (check_domain_only(c) && c->job.cages[0].cells == NULL && !c->job.cages[0].of_picture)
         puts("only the surface was checked: --method foliation or field certifies a chart of its "
              "inside, --target a map");
 }

@@ -144,11 +144,13 @@ static int write_boundary(const cage *c, const char *name, const char *format)
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-/* Writes the boundary of a mask, and prints that arrays count rows first but pictures x. */
+/* Writes the outline of a picture, or the boundary of a mask, and prints that arrays count rows first but pictures x. */
 int check_write_boundary(check *c)
 {
     const cage *mask = &c->job.cages[0];
     const char *name = c->job.args->boundary;
+    if (mask->of_picture)
+        return cages_write(name, mask, NULL);
     int result = write_boundary(mask, name, NULL);
     if (result == DONE && mask->dim == 2)
         note("%s: the first coordinate is the row (axis 0 of the array), and the second is the "

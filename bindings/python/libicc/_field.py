@@ -29,6 +29,10 @@ class Field:
         n_outside: samples whose place had no image
         factor: how many times finer the grid is than the one that was asked for
         report: what `certify_field` found
+
+    >>> field = libicc.Field(numpy.zeros((3, 4, 2)))
+    >>> field.shape, field.report["certified"]
+    ((3, 4), True)
     """
 
     def __init__(self, values: ArrayLike, origin: ArrayLike = 0.0, step: ArrayLike = 1.0, displacement: bool = True):
@@ -124,11 +128,11 @@ def certify_field(values: Any, spacing: Any = 1.0, origin: Any = 0.0, *, displac
                   threads: Optional[int] = None) -> Dict[str, Any]:
     """Proves that a sampled field does not fold, or lists the cells where it does. The field may come from any program.
 
-    >>> values = np.zeros((3, 3, 2))
+    >>> values = numpy.zeros((3, 3, 2))
     >>> values[1, 1] = [5, 0]
     >>> report = libicc.certify_field(values)
     >>> report["certified"], report["n_folded"], report["cells"][0]
-    (False, 4, ((0, 0), 'folded'))
+    (False, 2, ((1, 0), 'folded'))
 
     Args:
         values: (nx, ny, 2), (nx, ny, nz, 3) or a `Field`. float32 is judged as it is

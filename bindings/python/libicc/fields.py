@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import pathlib
 import sys
-from typing import TYPE_CHECKING, Any, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Dict, Tuple
 
 import numpy as np
 
@@ -22,12 +22,17 @@ _TURN = np.array([-1.0, -1.0, 1.0])
 def save(field: Field, path: Any) -> None:
     """Writes a field in the format of the file's ending."""
     name = str(path).lower()
-    writers = {".nii": save_nifti, ".nii.gz": save_nifti, ".mha": save_mha, ".vti": save_vti, ".npz": save_npz,
-               ".pfm": save_stmap}
+    writers: Dict[str, Callable[[Field, Any], None]] = {
+        ".nii": save_nifti, ".nii.gz": save_nifti, ".mha": save_mha, ".vti": save_vti, ".npz": save_npz,
+        ".pfm": save_stmap}
     for ending, writer in writers.items():
         if name.endswith(ending):
             return writer(field, path)
     raise ValueError(f"{path}: the ending must be one of {', '.join(writers)}")
+
+
+def _numbers(values: Any) -> str:
+    return " ".join(repr(float(v)) for v in np.ravel(values))
 
 
 def _solid(field: Field, what: str) -> None:
@@ -63,11 +68,10 @@ def save_mha(field: Field, path: Any, *, world: str = "RAS") -> None:
     step = field.step * turn
     spacing = np.linalg.norm(step, axis=1)
     data = (field.displacements * turn).astype(field.values.dtype).transpose(2, 1, 0, 3)
-    numbers = lambda values: " ".join(repr(float(v)) for v in np.ravel(values))  # noqa: E731
     kind = "MET_FLOAT" if data.dtype == np.float32 else "MET_DOUBLE"
     head = (f"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = {sys.byteorder == 'big'}\n"
-            f"CompressedData = False\nTransformMatrix = {numbers(step / spacing[:, None])}\n"
-            f"Offset = {numbers(field.origin * turn)}\nElementSpacing = {numbers(spacing)}\n"
+            f"CompressedData = False\nTransformMatrix = {_numbers(step / spacing[:, None])}\n"
+            f"Offset = {_numbers(field.origin * turn)}\nElementSpacing = {_numbers(spacing)}\n"
             f"DimSize = {' '.join(map(str, field.shape))}\nElementNumberOfChannels = 3\nElementType = {kind}\n"
             "ElementDataFile = LOCAL\n")
     pathlib.Path(path).write_bytes(head.encode() + np.ascontiguousarray(data).tobytes())
@@ -88,10 +92,9 @@ def save_vti(field: Field, path: Any) -> None:
     data = np.ascontiguousarray(field.displacements.astype(field.values.dtype).transpose(2, 1, 0, 3))
     kind = "Float32" if data.dtype == np.float32 else "Float64"
     extent = " ".join(f"0 {side - 1}" for side in field.shape)
-    numbers = lambda values: " ".join(repr(float(v)) for v in values)  # noqa: E731
     order = "BigEndian" if sys.byteorder == "big" else "LittleEndian"
     head = (f'<VTKFile type="ImageData" version="1.0" byte_order="{order}" header_type="UInt64">'
-            f'<ImageData WholeExtent="{extent}" Origin="{numbers(field.origin)}" Spacing="{numbers(spacing)}">'
+            f'<ImageData WholeExtent="{extent}" Origin="{_numbers(field.origin)}" Spacing="{_numbers(spacing)}">'
             f'<Piece Extent="{extent}"><PointData Scalars="displacement"><DataArray type="{kind}" Name="displacement" '
             'NumberOfComponents="3" format="appended" offset="0"/></PointData></Piece></ImageData>'
             '<AppendedData encoding="raw">_')

@@ -1,7 +1,7 @@
 /* JPEG through libjpeg-turbo. The colour profile and the size of pixels become the picture's
  * notes. Exif's orientation is obeyed. The rest of Exif is dropped, because it describes another
  * picture. */
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include "base/allocate.h"
 

@@ -1,5 +1,13 @@
 /* Pictures: grey, grey + alpha, RGB or RGBA, with samples of 8 or 16 bits and rows from the top.
- * Also arrays that are no plain pictures: of floats, or with more channels. These have no alpha. */
+ * Also arrays that are no plain pictures: of floats, or with more channels. These have no alpha.
+ *
+ * Words of this folder
+ * - sample: the number of a channel in a pixel. value: the same as a float.
+ * - notes: what a file says about colours and the size of pixels.
+ * - style: how a picture is written.
+ *
+ * picture_file.h reads and writes files; a format is a file NAME_io.c with a decoder and an
+ * encoder. Begin with picture_file.c. */
 #ifndef PICTURE_H
 #define PICTURE_H
 

@@ -3,8 +3,18 @@
 #ifndef PICTURE_FILE_H
 #define PICTURE_FILE_H
 
-#include "job/args.h"
-#include "plot/picture.h"
+#include "picture/picture.h"
+
+/* What a format can hold. */
+typedef struct picture_kind {
+    const char *name;
+    bool has_colours, has_alpha;
+} picture_kind;
+
+const picture_kind *picture_kind_of(picture_format format);
+
+/* The format of this name, or PICTURE_NONE. The name may be NULL. */
+picture_format picture_kind_named(const char *name);
 
 /* The format of a file by its first bytes, or PICTURE_NONE. */
 picture_format picture_told(const char *bytes, size_t n);
@@ -16,13 +26,6 @@ bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong);
 /* Encodes a picture; free() the bytes. NULL: see `wrong`. */
 unsigned char *picture_encode(const picture *p, const picture_style *style, size_t *n,
                               problem *wrong);
-
-/* Makes the picture that is drawn on, as the options ask. Chooses how to write it to a file: in the
- * format of the name, or else in that of `from`, with the notes of `from`. FAILED or MISUSED with a
- * message on stderr if the format cannot hold the picture, or an option does not apply. Free `to`
- * in any case. */
-int picture_begin(picture *to, picture_style *style, picture *from, const args *a,
-                  const char *name);
 
 /* Read a file and decode it, also one read before, and encode a picture to a file. DONE, or FAILED
  * with a message on stderr. */

@@ -1,5 +1,5 @@
 /* Making, copying and widening pictures. */
-#include "plot/picture.h"
+#include "picture/picture.h"
 
 #include "base/allocate.h"
 

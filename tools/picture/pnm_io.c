@@ -1,6 +1,6 @@
 /* Netpbm's formats, by its manual pages pbm(5), pgm(5), ppm(5) and pam(5): numbers in a header,
  * then samples in binary, most significant byte first, or as text. They are common in pipes. */
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include "base/allocate.h"
 

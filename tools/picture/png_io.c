@@ -1,6 +1,6 @@
 /* PNG through libpng. Notes in the file about colours (gAMA, cHRM, sRGB, iCCP) and about the size
  * of pixels (pHYs) become the picture's notes. */
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include "base/allocate.h"
 

@@ -1,5 +1,5 @@
 /* Pictures as arrays in NumPy's .npy files: rows, columns and perhaps channels. */
-#include "plot/picture_file.h"
+#include "picture/picture_file.h"
 
 #include "base/allocate.h"
 #include "base/npy.h"
