@@ -75,7 +75,8 @@ const option options[] = {
      .offset = AT(source),
      .value = "FILE",
      .help =
-         "the cage before: text, CSV, GeoJSON, WKT or SVG; in space OBJ, OFF, PLY, STL or "
+         "the cage before: text, CSV, GeoJSON, WKT, SVG or a cutout (PNG); in space OBJ, OFF, PLY, "
+         "STL or "
          "glTF; a Medit, VTK or Gmsh mesh; a .npy mask. FILE#name=Kent takes one shape of several"},
     {.name = "source",
      .letter = 's',
@@ -459,7 +460,8 @@ const option options[] = {
      .commands = HAS_CAGES | FOR_FIT,
      .offset = AT(flatten),
      .value = "LENGTH",
-     .help = "SVG: maximum distance between a curve and the polygon that replaces it (default: 16 "
+     .help = "SVG and pictures: maximum distance between a curve and the polygon that replaces it "
+             "(default: 16 "
              "edges for a curve, 32 for an arc)"},
     {.name = "fill-holes",
      .group = OPTIONS_RARE,
