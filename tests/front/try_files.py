@@ -98,7 +98,7 @@ def table(found):
 
 def write_table(page, found):
     text = Path(page).read_text(encoding="utf-8")
-    before, mark, _ = text.partition("<!-- table -->\n")
+    before, mark, _ = text.partition("tries each of them in its role, by one call.\n\n")
     n = sum(command or front for results in found.values() for command, front, _ in results.values())
     head = f"The command takes the files of the first column, and the front those of the second; together {n} of "
     head += f"{sum(map(len, found.values()))}.\n\n"
