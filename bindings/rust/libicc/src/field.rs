@@ -68,7 +68,7 @@ pub fn certify_field(
     most: usize,
     env: &mut Env<'_>,
 ) -> Result<(FieldReport, Vec<(u32, i32)>)> {
-    let raw = grid.raw(values.len(), values.as_ptr().cast_mut())?;
+    let raw = grid.raw(values.len(), values.as_ptr() as *mut f64)?;
     let (mut cells, mut kinds) = (vec![0; most], vec![0; most]);
     let mut report = FieldReport::default();
     env.call(|env, err| {
