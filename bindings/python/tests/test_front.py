@@ -84,6 +84,7 @@ def test_figures(folder):
     with pytest.raises(front.FileError, match="choose one: wall.tscn#Wall"):
         front.read("wall.tscn#Door")
     Path("p.mrk.json").write_text(json.dumps({"markups": [{"controlPoints": [{"label": "x", "position": [1, 1, 1]}]}]}))
+    pytest.importorskip("meshio")
     assert run("map", "-s", "A.obj", "-t", "B.obj", "p.mrk.json", "q.mrk.json") == 0
     place = json.loads(Path("q.mrk.json").read_text())["markups"][0]["controlPoints"][0]
     assert place["label"] == "x" and np.allclose(place["position"], [2, 1, 1])
@@ -98,6 +99,7 @@ def test_volumes(folder, ending):
     volume._write_headed(labels, affine, Path("in." + ending))
     back = front.read("in." + ending)
     assert np.array_equal(back.data, labels) and np.array_equal(back.affine, affine)
+    pytest.importorskip("meshio")
     assert run("warp", "-s", "A.obj", "-t", "B.obj", "--outside", "null", "in." + ending, "out." + ending) == 0
     # One unit of the world is two voxels of the first axis.
     assert np.argwhere(front.read("out." + ending).data).tolist() == [[5, 4, 5]]
