@@ -1426,7 +1426,7 @@ typedef struct icc_field_report {
     char message[192];
 } icc_field_report;
 
-/** What is wrong with a cell: icc_field_certify(). */
+/** Why icc_field_certify() lists a cell. */
 enum {
     ICC_CELL_FOLDED = 1,    /**< somewhere in it the determinant is not positive */
     ICC_CELL_UNDECIDED = 2, /**< its sign is not known */

@@ -43,8 +43,8 @@ typedef struct iccp_features {
     size_t n_places; /* number of all facets, including those of lines and points */
     iccp_feature *item;
     struct iccp_network *network; /* of a polygon: network.h */
-    /* Of a solid: two region numbers for each of n_places facets. sides[2 f] is the region in front
-     * of facet f, from where its corners run counter-clockwise. sides[2 f + 1] is the one behind */
+    /* A solid has two region numbers for each of its n_places facets. sides[2 f] is the region in
+     * front of facet f, where its corners appear counter-clockwise. sides[2 f + 1] lies behind */
     uint32_t *sides;
 } iccp_features;
 

@@ -36,7 +36,7 @@ static icc_status place_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* A vertex of a facet, in the caller's coordinates. */
+/* Adds `factor` times a point of a facet, in the caller's coordinates. */
 static void add_vertices(const icc_domain *domain, uint32_t facet, const double *bary,
                          double factor, double *sum)
 {

@@ -1,6 +1,7 @@
-/* Marching squares (W. E. Lorensen and H. E. Cline 1987, in the plane). The corners of a square are the centres of four pixels. A
- * contour crosses a side of a square whose ends differ, and runs through the square with the opaque corners to its right
- * if y points down. If two opposite corners are opaque and two are not, the mean of the four decides which are connected. */
+/* Marching squares (W. E. Lorensen and H. E. Cline 1987, in the plane). The corners of a square
+ * are the centres of four pixels. A contour crosses a side of a square whose ends differ, and
+ * runs through the square with the opaque corners to its right if y points down. If two opposite
+ * corners are opaque and two are not, the mean of the four decides which are connected. */
 #include "cage/alpha_contours.h"
 
 #include "base/allocate.h"

@@ -9,7 +9,8 @@
 
 #include <stdlib.h>
 
-/* How far the outline may be from where alpha is one half, in pixels, if nothing else is asked for. */
+/* How far the outline may be from where alpha is one half, in pixels, if nothing else is asked
+ * for. */
 static const double CLOSE = 1;
 
 bool cage_read_picture(cage *out, const cage_choice *choice, const char *text, size_t n,
@@ -27,8 +28,10 @@ bool cage_read_picture(cage *out, const cage_choice *choice, const char *text, s
     }
     alpha_contours c = alpha_contours_find(&p);
     picture_free(&p);
-    if (c.n_contours == 0)
+    if (c.n_contours == 0) {
+        alpha_contours_free(&c);
         return spoilt(wrong, 0, "the picture is transparent everywhere, so it has no outline");
+    }
     c.n = thin_polygons(c.points, c.n, c.firsts, c.n_contours,
                         choice->flat.length > 0 ? choice->flat.length : CLOSE);
     for (size_t v = 0; v < c.n; v++)

@@ -154,8 +154,8 @@ static bool runs_alike(const cage *c, uint32_t face, uint32_t k, uint32_t other)
     return false;
 }
 
-/* Numbers the faces that are connected with `first`, and finds which of them are turned over. Returns false
- * if the piece is one-sided. */
+/* Numbers the faces that are connected with `first`, and finds which of them are turned over.
+ * Returns false if the piece is one-sided. */
 static bool number_piece(scan *s, uint32_t first, uint32_t *stack)
 {
     size_t n = 0;

@@ -1,5 +1,6 @@
-/* Mends what a scanner leaves behind in a surface: triangles that repeat others, small pieces beside the body,
- * triangles that are turned over, and small holes. Prints what it did, with the numbers of faces. */
+/* Mends what a scanner leaves behind in a surface: triangles that repeat others, small pieces
+ * beside the body, triangles that are turned over, and small holes. Prints what it did, with the
+ * numbers of faces. */
 #ifndef MEND_H
 #define MEND_H
 
@@ -16,10 +17,10 @@ typedef struct mended {
 /* A piece or a hole is small if it has at most this share of the area of the largest piece. */
 #define MEND_SMALL 0.05
 
-/* Mends a surface in space whose vertices are joined (weld.h). A piece is connected by sides that two faces share. Small pieces
- * outside the largest one are left out. The faces of a piece are turned like most of them. A small hole is filled with the
- * triangles of least area, without new vertices. Refuses one-sided surfaces and holes that are not small. `file` is for
- * messages. */
+/* Mends a surface in space whose vertices are joined (weld.h). A piece is connected by sides
+ * that two faces share. Small pieces outside the largest one are left out. The faces of a piece
+ * are turned like most of them. A small hole is filled with the triangles of least area, without
+ * new vertices. Refuses one-sided surfaces and holes that are not small. `file` is for messages. */
 int mend_surface(cage *c, const char *file, mended *did);
 
 /* ---- for mend.c ---- */
@@ -27,7 +28,8 @@ int mend_surface(cage *c, const char *file, mended *did);
 /* Twice the area of a triangle. */
 double mend_area2(const double *a, const double *b, const double *c);
 
-/* Fills the holes of a surface whose faces are turned alike. `area` is that of the largest piece. */
+/* Fills the holes of a surface whose faces are turned alike. `area` is that of the largest
+ * piece. */
 int mend_holes(cage *c, const char *file, double area, mended *did);
 
 #endif

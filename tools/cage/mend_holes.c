@@ -1,5 +1,5 @@
-/* Fills small holes with the triangles of least area (G. Barequet and M. Sharir: Filling gaps in the boundary of a polyhedron, 1995).
- */
+/* Fills small holes with the triangles of least area (G. Barequet and M. Sharir: Filling gaps in
+ * the boundary of a polyhedron, 1995). */
 #include "cage/mend.h"
 
 #include "base/allocate.h"
@@ -72,8 +72,8 @@ typedef struct hole {
     const sides *all;
     size_t n;
     const uint32_t *loop;
-    double *
-        cost; /* n * n: twice the least area; infinite if a side of the surface would be used again */
+    /* n * n: twice the least area, or infinity if a side of the surface would be used again */
+    double *cost;
     uint32_t *third; /* n * n: the third corner of the triangle at i and j */
 } hole;
 
@@ -169,7 +169,8 @@ typedef struct holes {
     mended *did;
 } holes;
 
-/* Fills the hole along the last n vertices of a path. Sides that were added at its vertices count as sides of the surface. */
+/* Fills the hole along the last n vertices of a path. Sides that were added at its vertices
+ * count as sides of the surface. */
 static int fill_next(holes *h, size_t n, const uint32_t *loop)
 {
     bool again = false;
@@ -188,8 +189,8 @@ static int fill_next(holes *h, size_t n, const uint32_t *loop)
     return result;
 }
 
-/* Follows the rim from side i. Where it comes back to a vertex, what lies between is a hole: one that meets
- * itself at a vertex is several. */
+/* Follows the rim from side i. Where it comes back to a vertex, what lies between is a hole: one
+ * that meets itself at a vertex is several. */
 static int follow(holes *h, size_t i)
 {
     size_t n = 0;

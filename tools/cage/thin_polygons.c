@@ -1,6 +1,6 @@
-/* A vertex between two others may go if no other vertex lies in the triangle of the three: then nothing crosses the new
- * side. Rounds take every second vertex where possible, until no vertex goes. Vertices are looked up by
- * squares of a grid as wide as a pixel. */
+/* A vertex between two others may go if no other vertex lies in the triangle of the three: then
+ * nothing crosses the new side. Rounds take every second vertex where possible, until no vertex
+ * goes. Vertices are looked up by squares of a grid as wide as a pixel. */
 #include "cage/thin_polygons.h"
 
 #include "base/allocate.h"
@@ -45,8 +45,8 @@ static double distance_to_side(const double *p, const double *a, const double *b
     return hypot(v[0] - along * u[0], v[1] - along * u[1]);
 }
 
-/* True if all vertices that were between a and b, in the polygon as it was, lie close to that side. `first` and `end` bound
- * the polygon. */
+/* True if all vertices that were between a and b, in the polygon as it was, lie close to that
+ * side. `first` and `end` bound the polygon. */
 static bool is_close(const rings *r, size_t a, size_t b, size_t first, size_t end)
 {
     for (size_t v = a + 1 < end ? a + 1 : first; v != b; v = v + 1 < end ? v + 1 : first)

@@ -1,4 +1,5 @@
-/* Takes PNG files apart and puts their parts in a row. A part is its length, a name of four letters, its bytes and a checksum. */
+/* Takes PNG files apart and puts their parts in a row. A part is its length, a name of four
+ * letters, its bytes and a checksum. */
 #include "plot/film.h"
 
 #include <string.h>
@@ -59,7 +60,8 @@ bool film_open(film *out, const char *name, uint32_t n_pictures, uint32_t rate)
     return outfile_open(&out->file, name);
 }
 
-/* Announces a picture: its size, no offset, how long it is shown, and that it replaces what was there. */
+/* Announces a picture: its size, no offset, how long it is shown, and that it replaces what was
+ * there. */
 static void write_control(film *f, const unsigned char *size)
 {
     unsigned char control[26] = {0};
@@ -79,7 +81,8 @@ static void write_heading(film *f)
     write_part(f, "acTL", counts, sizeof counts, counts, 0);
 }
 
-/* Writes the bytes of a picture's colours. Only those of the first picture are where PNG has them. */
+/* Writes the bytes of a picture's colours. Only those of the first picture are where PNG has
+ * them. */
 static void write_colours(film *f, const unsigned char *bytes, size_t n)
 {
     unsigned char number[4];

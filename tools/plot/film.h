@@ -1,5 +1,5 @@
-/* Films: PNG pictures one after the other in one file, an animated PNG (APNG, part of PNG's third edition, W3C 2025). Programs that do
- * not know it show the first picture. */
+/* Films: PNG pictures one after the other in one file, an animated PNG (APNG, part of PNG's
+ * third edition, W3C 2025). Programs that do not know it show the first picture. */
 #ifndef FILM_H
 #define FILM_H
 

@@ -16,7 +16,7 @@
 
 static const char marker[] = "/*data*/";
 
-/* What the page shows. */
+/* The map and its domains, as the page shows them. */
 typedef struct scene {
     job *job;
     icc_map_info info;

@@ -10,7 +10,7 @@ typedef struct iccp_added_vertices {
     size_t n;
     size_t *count;  /* numbers of vertices: of the outer ring, and then of each feature */
     uint32_t *knot; /* of each vertex: its knot, or UINT32_MAX for a lone point */
-    /* Of each vertex: the edge to the next vertex of its feature. 2 k is the edge from knot k to
+    /* The edge from each vertex to the next one of its feature. 2 k is the edge from knot k to
      * knot k + 1, and 2 k + 1 is the same edge backwards. UINT32_MAX if there is no edge */
     uint32_t *after;
     uint32_t *vertex; /* of each vertex of the given domains: its new number */

@@ -1274,7 +1274,7 @@ pub struct icc_field_report {
 }
 sized!(icc_field_report);
 
-// What is wrong with a cell: `icc_field_certify()`.
+// Why `icc_field_certify()` lists a cell.
 /// somewhere in it the determinant is not positive
 pub const ICC_CELL_FOLDED: i32 = 1;
 /// its sign is not known
