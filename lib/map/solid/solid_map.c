@@ -82,13 +82,41 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
     return status;
 }
 
+/* Refines a new map with a high energy, until two refinements in turn do not halve it. Its start
+ * has tetrahedra that are positive, but nearly flat, and no step can give them room, because most
+ * of their corners are fixed. */
+static icc_status unlock(iccp_solid_map *map, const icc_domain *source,
+                         const icc_improve_options *options, iccp_map_facts *info,
+                         const iccp_env *env)
+{
+    const iccp_map_facts first = *info;
+    size_t n_iterations = 0, n_changes = 1, n_in_vain = 0;
+    double seconds = 0;
+    icc_status status = ICC_OK;
+    while (status == ICC_OK && n_changes > 0 && info->energy > ICCP_HIGH_ENERGY && n_in_vain < 2) {
+        const double began = iccp_seconds(), before = info->energy;
+        n_iterations += info->n_iterations;
+        seconds += info->seconds_improve;
+        status = iccp_solid_refine(map, source, true, &n_changes, env);
+        seconds += iccp_seconds() - began;
+        if (status == ICC_OK)
+            status = iccp_solid_map_relax(map, source, options, info, env);
+        n_in_vain = info->energy < 0.5 * before ? 0 : n_in_vain + 1;
+    }
+    info->energy_start = first.energy_start;
+    info->n_iterations += n_iterations;
+    info->seconds_improve += seconds;
+    return status;
+}
+
 /* Takes the steps of every new map. */
 static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, int32_t iterations,
                               iccp_map_facts *info, const iccp_env *env)
 {
     const icc_improve_options options = {
         .iterations = iterations == 0 ? ITERATIONS_OF_NEW : iterations, .levels = -1};
-    return iccp_solid_map_relax(map, source, &options, info, env);
+    const icc_status status = iccp_solid_map_relax(map, source, &options, info, env);
+    return status == ICC_OK && iterations == 0 ? unlock(map, source, &options, info, env) : status;
 }
 
 icc_status iccp_solid_map_finish(iccp_solid_map *map, iccp_map_facts *info, const iccp_env *env)

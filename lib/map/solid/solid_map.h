@@ -18,7 +18,7 @@
  * - Later: solid_improve.h lowers the energy, and solid_follow.h follows a moving target.
  *
  * Files that these use
- * - Before all: filled_pair.h fills both surfaces (map/map.c calls it).
+ * - Before all: fill/filled_pair.h fills both surfaces (map/map.c calls it).
  * - solid_marks.h says what is fixed. The mesh is changed by solid_edit.h: solid_chords.h cuts what
  *   has only fixed corners, solid_cuts.h other edges, solid_flips.h flips. solid_certificate.h
  *   proves, solid_kind.h has the operations.
@@ -66,8 +66,9 @@ void iccp_solid_place_fixed(const iccp_simplices *mesh, const icc_domain *target
 
 /* Makes a map from a source with a mesh: harmonic images, repaired until every tetrahedron is
  * positive, exactly. If this fails, it uses a mesh without chords, the target's mesh and further
- * strategies (solid_start.h). Then the given number of steps lowers the energy; 0 means up to 20
- * and -1 none. Fills in the mesh's members of `info`. If all repairs fail, *out is NULL, with
+ * strategies (solid_start.h). Then the given number of steps lowers the energy. -1 means none. 0
+ * means up to 20, and refinements of a map whose energy stays high. Fills in the mesh's members of
+ * `info`. If all repairs fail, *out is NULL, with
  * ICC_OK, and info->n_unrepaired is not 0. */
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_domain *source,
                                  const icc_domain *target, int32_t iterations, iccp_map_facts *info,
