@@ -1016,6 +1016,14 @@ public:
         return m;
     }
 
+    /** The region of each simplex of mesh(): icc_map_get_regions(). */
+    std::vector<std::uint32_t> mesh_regions() const
+    {
+        std::vector<std::uint32_t> result(info().n_simplices);
+        call({}, [&](auto, icc_error *err) { return icc_map_get_regions(get(), result.data(), err); });
+        return result;
+    }
+
     /** Maps a mesh and checks its image: icc_map_certify(). */
     carried_mesh certify(view<const double> vertices, view<const std::uint32_t> simplices,
                          const env &e = {}) const

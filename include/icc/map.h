@@ -1156,6 +1156,23 @@ ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc
  */
 ICC_API icc_status icc_map_get_mesh(const icc_map *map, icc_mesh *mesh, double *images);
 
+/**
+ * Copies the region of each cell of the mesh that icc_map_get_mesh() copies. Regions are numbered
+ * as in icc_domain_get_regions(), in 2-D as well: region k lies within the k-th feature of kind
+ * ::ICC_FEATURE_REGION of the source, but not within a region inside it, and 0 is the rest. If two
+ * regions of the plane overlap and neither lies in the other, the number is one of theirs.
+ *
+ * @param map          the map
+ * @param[out] regions room for icc_map_info::n_simplices numbers. All are 0 if the source has no
+ *                     regions
+ * @param err          may be NULL
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_ARGUMENT if `map` or `regions` is NULL
+ * - ::ICC_ERR_UNSUPPORTED if it is not a mesh map
+ * - ::ICC_ERR_MEMORY
+ */
+ICC_API icc_status icc_map_get_regions(const icc_map *map, uint32_t *regions, icc_error *err);
+
 /** What icc_map_certify() found out about the image of your mesh. */
 typedef struct icc_certificate {
     size_t size; /**< set by the caller: `sizeof(icc_certificate)` */

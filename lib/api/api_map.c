@@ -337,6 +337,20 @@ icc_status icc_map_get_mesh(const icc_map *map, icc_mesh *mesh, double *images)
     return status == ICC_OK ? iccp_map_get_mesh(map, vertices, images, cells) : status;
 }
 
+icc_status icc_map_get_regions(const icc_map *map, uint32_t *regions, icc_error *err)
+{
+    ICCP_ENTER;
+    const char *missing = map == NULL ? "map" : regions == NULL ? "regions" : NULL;
+    iccp_env none;
+    icc_status status = iccp_begin(&none, NULL, missing, err);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_map_get_regions(map, regions);
+    if (status == ICC_ERR_UNSUPPORTED)
+        return iccp_fail(err, status, "a curve map has no mesh, so it has no regions");
+    return iccp_explain(err, status);
+}
+
 /* Reads the caller's mesh for a map. */
 static icc_status read_mesh(icc_mesh *mesh, const icc_map *map, const icc_mesh *given,
                             icc_error *err)

@@ -628,6 +628,17 @@ icc_status iccp_map_get_mesh(const icc_map *map, double *vertices, double *image
     return ICC_OK;
 }
 
+icc_status iccp_map_get_regions(const icc_map *map, uint32_t *regions)
+{
+    if (map->kind->mesh == NULL)
+        return ICC_ERR_UNSUPPORTED;
+    if (map->kind->regions != NULL)
+        return map->kind->regions(map, regions);
+    for (size_t s = 0; s < map->info.n_simplices; ++s)
+        regions[s] = 0;
+    return ICC_OK;
+}
+
 void iccp_map_release(icc_map *map)
 {
     if (map == NULL)

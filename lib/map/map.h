@@ -42,10 +42,11 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
                              int32_t iterations, const iccp_env *env, icc_error *err);
 void iccp_map_release(icc_map *map);
 
-/* See icc_map_get_tie() and icc_map_get_mesh(). */
+/* See icc_map_get_tie(), icc_map_get_mesh() and icc_map_get_regions(). */
 icc_status iccp_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *target);
 icc_status iccp_map_get_mesh(const icc_map *map, double *vertices, double *images,
                              uint32_t *corners);
+icc_status iccp_map_get_regions(const icc_map *map, uint32_t *regions);
 
 /* ---- a map piece by piece ---- */
 

@@ -269,6 +269,9 @@ START_TEST(maps_refuse_bad_arguments)
     REFUSED(icc_map_get_report(NULL, &made));
     REFUSED(icc_map_get_report(o.map, NULL));
     icc_tie_info tie = {.size = sizeof tie};
+    uint32_t region;
+    EXPLAINED(icc_map_get_regions(NULL, &region, &err));
+    EXPLAINED(icc_map_get_regions(o.map, NULL, &err));
     REFUSED(icc_map_get_tie(NULL, 0, &tie, NULL, NULL));
     REFUSED(icc_map_get_tie(o.map, 0, NULL, NULL, NULL));
     REFUSED(icc_map_get_tie(o.map, 0, &tie, NULL, NULL)); /* it has no features */

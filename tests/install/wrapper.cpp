@@ -70,6 +70,8 @@ void solids_have_features()
     check(solid.features()[0].n_facets == 4 && solid.facets().size() == 24, "facets of a void");
     const auto err = thrown<icc::error>([&] { (void)solid.mesh_regions(); }, none);
     check(err.status == ICC_ERR_UNSUPPORTED, "no regions without a mesh");
+    const icc::map map(source, target);
+    check(map.mesh_regions() == std::vector<std::uint32_t>(map.info().n_simplices), "no regions");
 }
 
 void maps_points()

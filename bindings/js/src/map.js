@@ -108,6 +108,13 @@ export function mapOf(core, Domain, Chart) {
       return out;
     }
 
+    /** The region of each simplex of mesh(): k within the k-th region of the source, but not in a region inside it; else 0. */
+    meshRegions() {
+      const regions = new Uint32Array(this.info.nSimplices);
+      core.call('icc_map_get_regions', this, regions);
+      return regions;
+    }
+
     /** The mesh of a mesh map in the plane as a triangulation for PROJ (+proj=tinshift), in JSON. It records the names of
      *  reference systems, { sourceCrs: 'EPSG:2056', targetCrs }. */
     toProj({ sourceCrs, targetCrs } = {}) {

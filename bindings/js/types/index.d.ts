@@ -204,6 +204,7 @@ export interface Map extends Handle {
   retarget(target: ShapeLike, iterations?: number): Map;
   /** The mesh of a mesh map: places before and after, and the corners of triangles or tetrahedra. */
   mesh(): { vertices: Float64Array; images: Float64Array; simplices: Uint32Array };
+  meshRegions(): Uint32Array;
   /** A triangulation for PROJ, in JSON. */
   toProj(systems?: { sourceCrs?: string; targetCrs?: string }): string;
   /** Maps points from the source to the target. A point without an image gets NaN. */

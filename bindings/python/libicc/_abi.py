@@ -135,6 +135,7 @@ map_create_from_charts map** chart* chart* map_options* env* error*
 map_improve map** map* improve_options* improve_report* env* error*
 map_retarget map** map* domain* retarget_options* env* error*
 map_get_mesh map* mesh* f64*
+map_get_regions map* u32* error*
 map_certify map* mesh* f64* certificate* env* error*
 map_repair map* mesh* f64* certificate* env* error*
 void:map_free map*

@@ -300,6 +300,24 @@ class Map(Transform, Saved):
         check(lib.map_get_mesh(self, ctypes.addressof(mesh), address(images)))
         return vertices, images, triangles
 
+    def mesh_regions(self) -> Indices:
+        """The region of each simplex of `mesh`: k within the k-th feature of kind "region" of the source, but not within
+        a region inside it, and 0 elsewhere.
+
+        >>> inner = [[0.2, 0.2], [0.6, 0.2], [0.6, 0.6], [0.2, 0.6]]
+        >>> square = libicc.Domain([[0, 0], [1, 0], [1, 1], [0, 1]], regions=[inner])
+        >>> vertices, images, simplices = libicc.Map(square, square).mesh()
+        >>> regions = libicc.Map(square, square).mesh_regions()
+        >>> a, b, c = vertices[simplices[regions == 1]].transpose(1, 2, 0)
+        >>> sides = b - a, c - a
+        >>> print(f"{(sides[0][0] * sides[1][1] - sides[0][1] * sides[1][0]).sum() / 2:.2f}")
+        0.16
+        """
+        regions = np.empty(self._info("map_get_info", "map_info").n_simplices, dtype=np.uint32)
+        call = Call(threads=1)
+        call.check(lib.map_get_regions(self, address(regions), call.err))
+        return regions
+
     def to_proj(self, *, source_crs: Optional[Any] = None, target_crs: Optional[Any] = None) -> str:
         """The mesh of a mesh map in the plane as a triangulation for PROJ, in JSON. Save it to a file, and PROJ applies
         it by ``+proj=tinshift +file=FILE``. So do programs that use PROJ, such as pyproj, GDAL, QGIS and PostGIS.

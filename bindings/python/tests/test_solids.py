@@ -56,3 +56,11 @@ def test_wrong_arguments():
 def test_regions_of_a_mesh():
     mesh = libicc.Domain(VERTICES, FACETS).filled()
     assert mesh.mesh_regions.tolist() == [0] * mesh.info.n_mesh_simplices
+    body = libicc.Domain(VERTICES, FACETS, surfaces=[ball(-0.4, 0.3)])
+    mapping = libicc.Map(body, body)
+    vertices, _, simplices = mapping.mesh()
+    a, b, c, d = vertices[simplices[mapping.mesh_regions() == 1]].transpose(1, 0, 2)
+    assert np.linalg.det(np.stack([b - a, c - a, d - a], axis=1)).sum() / 6 == pytest.approx(4 / 3 * 0.027)
+    curves = libicc.Map([[0, 0], [1, 0], [0, 1]], [[0, 0], [1, 0], [0, 1]], kind="curves")
+    with pytest.raises(libicc.UnsupportedError, match="a curve map has no mesh"):
+        curves.mesh_regions()

@@ -49,10 +49,12 @@ typedef struct iccp_map_kind {
     icc_status (*apply)(const icc_map *map, bool inverse, size_t n, const double *points,
                         double *images, double *jacobians, icc_status *status, iccp_path *path);
 
-    /* `mesh` returns the mesh on which the map is linear. After its images have been changed in
-     * place, `renew` updates the data that depends on them. *kept is false if the change left
+    /* `mesh` returns the mesh on which the map is linear. `regions` fills in the region of each of
+     * its simplices; if it is NULL, all have number 0. After the images of `mesh` have been changed
+     * in place, `renew` updates the data that depends on them. *kept is false if the change left
      * the isotopy class of the features. The caller then restores the images. */
     iccp_simplicial_map (*mesh)(const icc_map *map);
+    icc_status (*regions)(const icc_map *map, uint32_t *regions);
     icc_status (*renew)(icc_map *map, bool *kept, const iccp_env *env);
 
     /* `improve` makes the state of a better map, `retarget` that of a map to the domain

@@ -6,6 +6,7 @@
 #include "map/plane/plane_apply.h"
 #include "map/plane/plane_certificate.h"
 #include "map/plane/plane_improve.h"
+#include "map/plane/plane_regions.h"
 #include "map/plane/plane_retarget.h"
 #include "map/plane/plane_start.h"
 
@@ -58,6 +59,12 @@ static iccp_simplicial_map mesh(const icc_map *map)
 {
     const iccp_mesh_map *plane = map->state;
     return iccp_plmap_simplicial(&plane->pl);
+}
+
+static icc_status regions(const icc_map *map, uint32_t *regions)
+{
+    const iccp_mesh_map *plane = map->state;
+    return iccp_plmap_find_regions(regions, &plane->pl, &map->memory);
 }
 
 /* Makes the isotopy again. Nothing else depends on the images, because the finders of points are
@@ -150,6 +157,7 @@ const iccp_map_kind iccp_plane_kind = {.number = ICC_MAP_MESH,
                                        .ready = ready,
                                        .apply = iccp_plane_apply,
                                        .mesh = mesh,
+                                       .regions = regions,
                                        .renew = renew,
                                        .improve = improve,
                                        .retarget = retarget,

@@ -82,6 +82,14 @@ static iccp_simplicial_map mesh(const icc_map *map)
     return iccp_solid_simplicial(map->state);
 }
 
+static icc_status regions(const icc_map *map, uint32_t *regions)
+{
+    const iccp_simplices *own = state_of(map)->mesh;
+    for (size_t s = 0; s < own->n_simplices; ++s)
+        regions[s] = own->region != NULL ? own->region[s] : 0;
+    return ICC_OK;
+}
+
 static icc_status renew(icc_map *map, bool *kept, const iccp_env *env)
 {
     iccp_solid_map *solid = state_of(map);
@@ -135,6 +143,7 @@ const iccp_map_kind iccp_solid_kind = {.number = ICC_MAP_MESH,
                                        .ready = ready,
                                        .apply = apply,
                                        .mesh = mesh,
+                                       .regions = regions,
                                        .renew = renew,
                                        .improve = improve,
                                        .retarget = retarget,

@@ -2384,6 +2384,22 @@ extern "C" {
     /// - `ICC_ERR_UNSUPPORTED` if it is not a mesh map
     pub fn icc_map_get_mesh(map: *const icc_map, mesh: *mut icc_mesh, images: *mut f64) -> icc_status;
 
+    /// Copies the region of each cell of the mesh that `icc_map_get_mesh()` copies. Regions are numbered as
+    /// in `icc_domain_get_regions()`, in 2-D as well: region k lies within the k-th feature of kind
+    /// `ICC_FEATURE_REGION` of the source, but not within a region inside it, and 0 is the rest. If two
+    /// regions of the plane overlap and neither lies in the other, the number is one of theirs.
+    ///
+    /// - `map`: the map
+    /// - `regions` (out): room for `icc_map_info.n_simplices` numbers. All are 0 if the source has no regions
+    /// - `err`: may be NULL
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if `map` or `regions` is NULL
+    /// - `ICC_ERR_UNSUPPORTED` if it is not a mesh map
+    /// - `ICC_ERR_MEMORY`
+    pub fn icc_map_get_regions(map: *const icc_map, regions: *mut u32, err: *mut icc_error) -> icc_status;
+
     /// Maps the vertices of your mesh of triangles (2-D) or tetrahedra (3-D), and checks exactly whether the
     /// image is a valid mesh too. Even a one-to-one map can fail this test, because the simplices are
     /// straight where the map bends.

@@ -332,6 +332,19 @@ impl Map {
         Ok(mesh)
     }
 
+    /// The region of each simplex of [`mesh`](Self::mesh): k within the k-th region of the source, but not within a
+    /// region inside it, and 0 elsewhere.
+    ///
+    /// # Errors
+    /// [`Status::UNSUPPORTED`] for other maps.
+    pub fn mesh_regions(&self) -> Result<Vec<u32>> {
+        let mut regions = vec![0; self.info().n_simplices];
+        // SAFETY: there is room for all.
+        Env::default()
+            .call(|_, err| unsafe { sys::icc_map_get_regions(self.as_ptr(), regions.as_mut_ptr(), err) })?;
+        Ok(regions)
+    }
+
     /// Maps points from the source to the target: n * dim coordinates. The call does not fail if single points have no
     /// image: check [`Images::n_failed`].
     pub fn apply(&self, points: &[f64], env: &mut Env<'_>) -> Result<Images> {
