@@ -332,15 +332,27 @@ def as_domain(shape: ShapeLike) -> Domain:
     It takes a Domain; anything that `Domain` takes, such as an array of polygon vertices, a polygon of shapely,
     geopandas or GeoJSON (a dict), or a boolean mask; a pair (vertices, facets); or a meshio Mesh. A meshio Mesh of
     triangles or quads in space is a surface. One of triangles or quads in the plane, or of tetrahedra, is a conforming
-    mesh.
+    mesh. The name of a file is one that the front reads, such as "county.gpkg" (docs/howto/formats.md).
     """
     if isinstance(shape, Domain):
         return shape
+    if isinstance(shape, (str, os.PathLike)):
+        return as_domain(_from_file(shape))
     if hasattr(shape, "cells_dict"):
         return _from_meshio(shape)
     if isinstance(shape, tuple) and len(shape) == 2 and np.ndim(shape[0]) == 2:
         return Domain(*shape)
     return Domain(shape)
+
+
+def _from_file(path: Any) -> Any:
+    """A shape from a file."""
+    from . import front
+
+    try:
+        return front.read(path, front.CAGES).outline()
+    except front.FileError as error:
+        raise ValueError(str(error)) from None
 
 
 def as_domains(source: ShapeLike, target: ShapeLike) -> Tuple[Domain, Domain]:
@@ -369,9 +381,8 @@ def _plain(shape: Any) -> Any:
         return shape
     if isinstance(shape, dict) or hasattr(shape, "__geo_interface__"):
         return _from_geojson(shape if isinstance(shape, dict) else shape.__geo_interface__)
-    if isinstance(shape, (str, bytes, os.PathLike)):
-        raise TypeError(f"a shape may be {_SHAPES}, not the name of a file: read {shape!r} first, for example by "
-                        "geopandas.read_file, json.load (GeoJSON), numpy.loadtxt or meshio.read")
+    if isinstance(shape, (str, os.PathLike)):
+        raise TypeError(f"a Domain is not made of the name of a file; libicc.as_domain({str(shape)!r}) reads it")
     try:
         array = np.asarray(shape)
         return array if array.dtype == bool else np.ascontiguousarray(array, dtype=np.float64)

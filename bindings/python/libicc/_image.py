@@ -77,6 +77,26 @@ def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, 
     return result
 
 
+class _Pixels(Transform):
+    """A transform of scikit-image as the map of a `PixelTransform`: from places in the picture to places in the result,
+    where pixel [j, i] covers [i, i + 1] x [j, j + 1]."""
+
+    dim, certified = 2, False
+
+    def __init__(self, transform: Any):
+        self._transform = transform
+
+    def apply(self, points: ArrayLike, **_: Any) -> Floats:
+        return self._moved(self._transform.inverse, points)
+
+    def apply_inverse(self, points: ArrayLike, **_: Any) -> Floats:
+        return self._moved(self._transform, points)
+
+    def _moved(self, transform: Any, points: ArrayLike) -> Floats:
+        places = np.asarray(points, dtype=np.float64) - 0.5
+        return np.asarray(transform(places.reshape(-1, 2))).reshape(places.shape) + 0.5
+
+
 class PixelTransform:
     """A 2-D map for ``skimage.transform.warp``. It goes from places in the result to places in the picture. Both are
     (column, row), with whole numbers at the centres of pixels.
@@ -116,10 +136,11 @@ class PixelTransform:
         return PixelTransform(self.map.inverse, self.outside)
 
     def __add__(self, then: Any) -> "PixelTransform":
-        """This transform, then another one. A pixel that either has no image for is outside."""
-        if not isinstance(then, PixelTransform):
+        """This transform, then another one, which may be one of scikit-image's. A pixel that either has no image for is
+        outside."""
+        if not isinstance(then, PixelTransform) and not (callable(then) and hasattr(then, "inverse")):
             return NotImplemented
-        return PixelTransform(self.map @ then.map, self.outside)
+        return PixelTransform(self.map @ (then.map if isinstance(then, PixelTransform) else _Pixels(then)), self.outside)
 
     def residuals(self, src: ArrayLike, dst: ArrayLike) -> Floats:
         """Distances (n,) of the images of `src` from `dst`."""

@@ -37,9 +37,10 @@ class Transform:
         """Maps what you give, and returns the same form.
 
         Args:
-            points: points as for `apply`. Or the first coordinates, and the others in `axes`: ``m(x, y)`` returns the
-                new x and y, as the transformers of pyproj do. Or a geometry of shapely, whose vertices move. Or GeoJSON
-                (a dict, or anything with ``__geo_interface__``), which comes back as a dict
+            points: points as for `apply`. A DataFrame of pandas and a DataArray of xarray keep their labels, and what
+                Dask computes later stays lazy. Or the first coordinates, and the others in `axes`: ``m(x, y)`` returns
+                the new x and y, as the transformers of pyproj do. Or a geometry of shapely, whose vertices move. Or
+                GeoJSON (a dict, or anything with ``__geo_interface__``), which comes back as a dict
             options: status, progress and threads, as for `apply`
 
         Raises:
@@ -53,6 +54,8 @@ class Transform:
             return self.apply(points, **options)
         if hasattr(points, "iloc") and hasattr(points, "geometry"):
             return _move_frame(self, points)
+        if _is_labelled(points):
+            return self.apply(points, **options) if options.get("status") else _move_labelled(self, points, options)
         if is_geometry(points):
             return move_geometry(self, points)
         if isinstance(points, dict) or hasattr(points, "__geo_interface__"):
@@ -203,6 +206,28 @@ def _move_frame(mapping: Transform, frame: Any) -> Any:
     from . import geopandas  # noqa: F401, adds the accessor
 
     return frame.icc.map(mapping)
+
+
+_LABELLED = (("dims", "coords"), ("map_partitions",), ("map_blocks", "dask"), ("iloc", "columns"))
+"""Members of a DataArray of xarray, a frame of Dask, an array of Dask and a DataFrame of pandas."""
+
+
+def _is_labelled(points: Any) -> bool:
+    return any(all(hasattr(type(points), name) for name in members) for members in _LABELLED)
+
+
+def _move_labelled(mapping: Transform, points: Any, options: Any) -> Any:
+    """Points with labels keep them. Those of Dask are mapped when they are computed."""
+    kind = type(points)
+    if hasattr(kind, "dims"):
+        return points.copy(data=mapping(points.data, **options))
+    if hasattr(kind, "map_partitions"):
+        return points.map_partitions(mapping)
+    if hasattr(kind, "map_blocks"):
+        from .dask import map_points
+
+        return map_points(mapping, points)
+    return kind(mapping.apply(points.to_numpy(), **options), points.index, points.columns)
 
 
 def move_geojson(mapping: Transform, tree: Any) -> Any:

@@ -16,6 +16,7 @@ from dask.delayed import delayed
 from numpy.lib.format import open_memmap
 
 from ._map import Map
+from ._transform import Transform
 from .raster import Grid, Sampling, Window, pull
 
 if TYPE_CHECKING:
@@ -24,12 +25,13 @@ if TYPE_CHECKING:
 DEFAULT_CHUNK = 1 << 20
 
 
-def _images(points: Array, mapping: Map, inverse: bool) -> Array:
+def _images(points: Array, mapping: Transform, inverse: bool) -> Array:
     """In a worker, which has one thread."""
-    return mapping.inverse(points, threads=1) if inverse else mapping(points, threads=1)
+    images: Array = mapping.apply_inverse(points, threads=1) if inverse else mapping.apply(points, threads=1)
+    return images
 
 
-def map_points(mapping: Map, points: Any, *, inverse: bool = False) -> Any:
+def map_points(mapping: Transform, points: Any, *, inverse: bool = False) -> Any:
     """The images of a dask array (.., dim) of points, as a lazy dask array with the same chunks.
 
     >>> import dask.array, libicc

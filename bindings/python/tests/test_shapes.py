@@ -1,6 +1,7 @@
 """What a shape may be, and what is said of what is none."""
 
 import ctypes
+import json
 import math
 
 import numpy as np
@@ -64,8 +65,20 @@ def test_masks():
 
 @pytest.mark.parametrize("shape", ["a.geojson", b"a", libicc.__loader__, None, 3, [[0, 0], [1]]])
 def test_what_is_no_shape(shape):
-    with pytest.raises((TypeError, ValueError), match="^source: .*(shape may be .*an array|must have the shape)"):
+    with pytest.raises((TypeError, ValueError), match="^source: .*(shape may be .*an array|must have the shape|opened)"):
         libicc.Map(shape, SQUARE)
+
+
+def test_files(tmp_path):
+    name = tmp_path / "a.geojson"
+    name.write_text(json.dumps(polygon([SQUARE])))
+    text = tmp_path / "b.txt"
+    np.savetxt(text, np.multiply(SQUARE, 2))
+    assert libicc.Map(str(name), text).certified and libicc.as_domain(name).info.measure == 12
+    with pytest.raises(TypeError, match=r"not made of the name of a file; libicc.as_domain\('a.geojson'\) reads it"):
+        libicc.Domain("a.geojson")
+    with pytest.raises(ValueError, match="target: .*no.geojson: cannot be opened"):
+        libicc.Map(name, tmp_path / "no.geojson")
 
 
 def test_features_in_space():

@@ -88,6 +88,33 @@ def test_geometries(slope, neighbour):
         slope({"a": 1})
 
 
+def test_labels_stay(slope, neighbour):
+    pandas, xarray = neighbour("pandas"), neighbour("xarray")
+    table = pandas.DataFrame({"x": [5, 2], "y": [5, 7]}, index=["a", "b"])
+    moved = slope(table)
+    assert list(moved) == ["x", "y"] and list(moved.index) == ["a", "b"]
+    assert np.array_equal(moved, slope(POINTS[:2])) and np.allclose(slope.inverse(moved), table)
+    assert slope(table, status=True)[1].tolist() == [0, 0]
+    grid = xarray.DataArray(POINTS.reshape(1, 3, 2), {"t": [7]}, ("t", "n", "axis"), "at")
+    moved = slope(grid)
+    assert moved.dims == grid.dims and moved.name == "at" and np.array_equal(moved[0], slope(POINTS))
+
+
+def test_dask_stays_lazy(slope, neighbour):
+    array, frame = neighbour("dask.array"), neighbour("dask.dataframe")
+    xarray, pandas = neighbour("xarray"), neighbour("pandas")
+    points = array.from_array(POINTS, chunks=(2, 2))
+    for lazy in (slope(points), slope(xarray.DataArray(points)), slope.inverse.inverse(points)):
+        assert hasattr(lazy, "dask") or lazy.chunks
+        assert np.array_equal(lazy.compute(scheduler="synchronous"), slope(POINTS))
+    back = slope.inverse(slope(points))
+    assert np.allclose(back.compute(scheduler="synchronous"), POINTS)
+    table = frame.from_pandas(pandas.DataFrame(POINTS, columns=["x", "y"]), npartitions=2)
+    moved = slope(table)
+    assert list(moved.columns) == ["x", "y"]
+    assert np.array_equal(moved.compute(scheduler="synchronous"), slope(POINTS))
+
+
 def test_domains_as_geojson(neighbour):
     geometry = neighbour("shapely.geometry")
     ring, island = SQUARE * 0.5 + 2, SQUARE * 0.1 + 4
@@ -147,6 +174,18 @@ def test_pixel_transforms():
         one + 3
     fitted = libicc.PixelTransform.from_estimate(pixels, pixels * 2)
     assert fitted.residuals(pixels, pixels * 2).max() < 1e-6
+
+
+def test_pixel_transforms_beside_others(neighbour):
+    transform = neighbour("skimage.transform")
+    frame = libicc.picture_cage((20, 30))
+    inner = libicc.Domain(frame, points=[[15, 10]]), libicc.Domain(frame, points=[[18, 8]])
+    own, turned = libicc.PixelTransform(libicc.Map(*inner)), transform.AffineTransform(scale=2, translation=(3, -1))
+    pixels = np.array([[4, 4], [20, 11], [9, 3.5]])
+    both = own + turned
+    assert np.allclose(both(pixels), turned(own(pixels)))
+    assert np.allclose(both.inverse(both(pixels)), pixels)
+    assert transform.warp(np.ones((20, 30)), both.inverse).shape == (20, 30)
 
 
 def test_pictures_in_notebooks(slope):

@@ -10,7 +10,7 @@ kind of thing has a module: `points`, `layer`, `picture`, `mesh`, `volume`. Each
 `read` and `write` are for your own programs.
 """
 
-from ._command import main
+from ._command import CAGES, main
 from .formats import FileError, read, write
 
-__all__ = ["FileError", "main", "read", "write"]
+__all__ = ["CAGES", "FileError", "main", "read", "write"]

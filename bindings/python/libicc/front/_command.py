@@ -24,7 +24,9 @@ from .scene import pack
 
 OK, FAILED, USAGE, PARTLY = 0, 1, 2, 4
 
-_CAGES = ("layer", "points", "mesh", "volume")
+CAGES = ("layer", "points", "mesh", "volume")
+"""The kinds of files that hold shapes."""
+
 _MOVES: Dict[str, Tuple[Tuple[str, ...], str]] = {
     "warp": (("picture", "volume"), "warp a picture, a raster or a volume of voxels"),
     "map": (("layer", "points"), "move a layer or points"),
@@ -80,7 +82,7 @@ def _options(one: argparse.ArgumentParser, target_required: bool = False) -> Non
 def _cage(path: str, side: str) -> Domain:
     """A cage from a file. Errors name the file and the side."""
     try:
-        return as_domain(formats.read(path, _CAGES).outline())
+        return as_domain(formats.read(path, CAGES).outline())
     except (Error, ValueError, TypeError) as error:
         raise FileError(f"{path}: no valid {side}: {error}") from error
 
