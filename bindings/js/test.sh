@@ -32,6 +32,7 @@ for mode in objects results; do
 done
 [ "$long" != --long ] || export ICC_MAPS=10000
 ICC_PACKAGE=$PWD/build/wasm/package node --test bindings/js/test
+python3 -B tests/first_day/try_lines.py docs/howto/first-day.md js build/wasm/package
 
 # The same bits as those native builds that there are.
 data=../shared/data

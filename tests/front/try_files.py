@@ -135,7 +135,7 @@ def main():
               f"{sum(skipped for _, _, skipped in results.values())} skipped")
     print("all:", sum(command or front for results in found.values() for command, front, _ in results.values()), "of",
           sum(map(len, found.values())))
-    sys.exit("\n".join(faults))
+    sys.exit("\n".join(faults) or None)
 
 
 if __name__ == "__main__":
