@@ -43,7 +43,7 @@ IN_SPACE = ("mesh", "volume", "points")
 def result_name(role, name):
     """A file of the same format as the one that is read, or of one that is near."""
     ending = name.partition(".")[2] if role == "volume" else name.rpartition(".")[2]
-    return {"kml": "gpkg", "psd": "png", "ora": "webp", "gltf": "glb", "feb": "vtu", "polyMesh/points": "txt",
+    return {"kml": "gpkg", "psd": "png", "ora": "webp", "feb": "vtu", "polyMesh/points": "txt",
             "pic16.tif": "tif"}.get(ending, ending)
 
 

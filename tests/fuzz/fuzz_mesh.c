@@ -82,7 +82,7 @@ static char *write_mesh(const mesh_file *m, const double *points, size_t *n)
     FILE *stream = open_memstream(&text, n);
     if (stream == NULL)
         exit(0);
-    mesh_write(m, points, stream);
+    mesh_write(m, points, "out", stream);
     require(fclose(stream) == 0);
     char *exact = malloc(*n + 1);
     if (exact == NULL)

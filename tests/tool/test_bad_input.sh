@@ -126,7 +126,10 @@ says '--landmarks takes it'
 printf 'id,x,y\n1,2,3\n' >bad
 run 1 map -s source.txt -t target.txt --geojson bad out.geojson
 says 'this is a table (CSV), not GeoJSON; '
-printf '{"asset":{"version":"2.0"}}' | names 'a glTF file in JSON' 'makes one file (.glb)'
+printf '{"asset":{"version":"2.0"}}' | rejects ' ' 'there are no vertices'
+printf '{"asset":{"version":"2.0"}}' >bad
+run 1 map -s source.txt -t target.txt -p bad
+says 'this is a glTF scene, which is read only as a cage or a mesh'
 printf '{"skeleton":{"spine":"4"}}' | names 'a Spine skeleton' "lines of \`x y\`"
 printf '{"v":"5","fr":30}' | names 'a Lottie animation' "lines of \`x y\`"
 printf '[gd_scene format=3]\n' | names 'a Godot scene' "lines of \`x y\`"

@@ -29,6 +29,9 @@ void edits_put_number(edits *e, double value);
 /* Writes the text with its edits and returns the number of bytes. With NULL as the stream it only
  * counts them. */
 size_t edits_write(edits *e, const char *text, size_t n, FILE *stream);
+
+/* Writes it into memory. */
+size_t edits_copy(edits *e, const char *text, size_t n, char *out);
 void edits_free(edits *e);
 
 #endif

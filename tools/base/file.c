@@ -2,6 +2,7 @@
 #include "base/file.h"
 
 #include "base/allocate.h"
+#include "base/gltf_pack.h"
 #include "base/say.h"
 #include "base/system.h"
 
@@ -53,6 +54,19 @@ char *file_read(const char *name, size_t *n)
     return text;
 }
 
+char *file_read_shape(const char *name, size_t *n)
+{
+    char *text = file_read(name, n);
+    problem wrong;
+    if (text == NULL || !gltf_told(text, *n))
+        return text;
+    char *packed = gltf_pack(name, text, *n, n, &wrong);
+    if (packed == NULL && wrong.text[0] != '\0')
+        failed(name, wrong.line, "%s", wrong.text);
+    free(text);
+    return packed;
+}
+
 /* The text after the first # before which a file is named; NULL: the whole name is a file's. */
 static const char *choice_in(const char *name)
 {
@@ -77,7 +91,7 @@ char *file_read_chosen(const char *name, size_t *n, const char **choice)
 {
     char *file = file_chosen_name(name);
     *choice = choice_in(name);
-    char *text = file_read(file, n);
+    char *text = file_read_shape(file, n);
     free(file);
     return text;
 }

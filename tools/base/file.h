@@ -12,7 +12,11 @@
 /* Reads a file and puts a '\0' after its content; free() it. NULL: a message is on stderr. */
 char *file_read(const char *name, size_t *n);
 
-/* Does the same for `FILE#CHOICE`. *choice is the text after the first # that follows the name of
+/* Does the same for a file that may be a mesh or a cage. A scene of glTF in JSON comes as one binary
+ * file (gltf_pack.h). */
+char *file_read_shape(const char *name, size_t *n);
+
+/* Reads a shape named by `FILE#CHOICE`. *choice is the text after the first # that follows the name of
  * an existing file. It is NULL if the whole name is that of a file, or if there is no such file. */
 char *file_read_chosen(const char *name, size_t *n, const char **choice);
 

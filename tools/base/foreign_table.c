@@ -19,7 +19,6 @@ const char *const foreign_remedies[] = {
     [MAKE_VTK] =
         "'meshio convert --ascii FILE OUT.vtk' makes VTK of it (Debian: meshio-tools)" FRONT,
     [MAKE_OBJ] = "'assimp export FILE OUT.obj' makes OBJ of it, as Blender does",
-    [MAKE_GLB] = "'assimp export FILE OUT.glb -fglb2' makes one file (.glb) of it, as Blender does",
     [MAKE_STL] = "'gmsh FILE -2 -o OUT.stl' makes STL of its surface, as FreeCAD does",
     [MAKE_STL_OF_PRINTS] = "'prusa-slicer --export-stl -o OUT.stl FILE' makes STL of it",
     [MAKE_PNG] = "'convert FILE OUT.png' makes a PNG picture of it (ImageMagick)" FRONT,
@@ -111,7 +110,7 @@ const foreign_format foreign_formats[] = {
     {XML("amf"), "an AMF file", MAKE_STL_OF_PRINTS},
     {XML("model"), "a 3MF model", MAKE_STL_OF_PRINTS},
     {JSON_TYPE("CityJSON"), "a CityJSON file; cjio exports OBJ", NO_REMEDY},
-    {JSON("asset"), "a glTF file in JSON", MAKE_GLB},
+    {JSON("asset"), "a glTF scene, which is read only as a cage or a mesh", NO_REMEDY},
     /* meshes */
     {BEGINS("mesh3d"), "a Netgen mesh", MAKE_VTK},
     {BEGINS("mesh2d"), "a Netgen mesh", MAKE_VTK},

@@ -13,7 +13,6 @@ typedef enum foreign_remedy {
     MAKE_GEOJSON_OF_TEXT,
     MAKE_VTK,
     MAKE_OBJ,
-    MAKE_GLB,
     MAKE_STL,
     MAKE_STL_OF_PRINTS,
     MAKE_PNG,

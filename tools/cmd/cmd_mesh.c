@@ -129,7 +129,7 @@ static int write_mesh(const job *j, const mesh_file *m, const double *images,
         if (j->cages[status[i] == ICC_OK ? !inverse : inverse].flipped)
             points_flip_y(1, places + m->dim * i);
     }
-    mesh_write(m, places, file.stream);
+    mesh_write(m, places, file.name, file.stream);
     free(places);
     return outfile_close(&file) ? DONE : FAILED;
 }
@@ -295,7 +295,7 @@ static int read_and_map(job *j)
 {
     const char *name = j->args->operands[0];
     size_t n;
-    char *text = file_read(name, &n);
+    char *text = file_read_shape(name, &n);
     if (text == NULL)
         return FAILED;
     mesh_file m;

@@ -122,7 +122,7 @@ static int write_images(const pose *p, const mesh_file *m, const double *images)
     outfile file;
     if (!outfile_open(&file, pose_output(p)))
         return FAILED;
-    mesh_write(m, images, file.stream);
+    mesh_write(m, images, file.name, file.stream);
     return outfile_close(&file) ? DONE : FAILED;
 }
 
@@ -232,7 +232,7 @@ static int pose_shape(pose *p)
     if (result == DONE)
         result = read_pose(p, set->dim, set->n_handles, set->handles);
     if (result == DONE) {
-        text = file_read(p->kernel.job.args->operands[0], &n);
+        text = file_read_shape(p->kernel.job.args->operands[0], &n);
         result = text == NULL ? FAILED
                               : output_fits("pose", pose_output(p),
                                             is_picture(text, n) ? PICTURES

@@ -115,10 +115,9 @@ static const command commands[] = {
      .summary = "Moves the vertices of a mesh with their cage, or fills a surface",
      .example = "-s before.off -t after.off part.vtk moved.vtk",
      .details =
-         "IN may be OBJ, OFF, Medit (.mesh), legacy VTK, Gmsh (.msh), PLY, STL or glTF (.glb). "
-         "OUT has the same format. If a vertex lies outside the cage, nothing is written unless "
-         "you "
-         "give --outside keep.\n"
+         "IN may be OBJ, OFF, Medit (.mesh), legacy VTK, Gmsh (.msh), PLY, STL or glTF. OUT "
+         "has the same format, and a glTF scene is written as JSON if OUT ends in .gltf. If a "
+         "vertex lies outside the cage, nothing is written unless you give --outside keep.\n"
          "\n"
          "The command then says how many elements of each kind keep their orientation, and "
          "whether the mesh and its image are one-to-one. The signs are exact. The exit code "

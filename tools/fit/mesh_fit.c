@@ -427,7 +427,7 @@ static int read_warped(const job *j, const mesh_file *m, mesh_file *warped)
 {
     const char *name = j->args->nearest;
     size_t n;
-    char *text = file_read(name, &n);
+    char *text = file_read_shape(name, &n);
     *warped = (mesh_file){.dim = 2};
     if (text == NULL)
         return FAILED;

@@ -73,7 +73,7 @@ static int read_filling(filling *out, const job *j, const cage *c, size_t side)
 {
     const char *name = mesh_name(j, side);
     size_t n;
-    char *text = file_read(name, &n);
+    char *text = file_read_shape(name, &n);
     if (text == NULL)
         return FAILED;
     problem wrong;

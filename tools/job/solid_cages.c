@@ -65,7 +65,7 @@ static int read_marks(marks *out, mark_kind kind, const char *name)
 {
     problem wrong;
     size_t n;
-    char *text = file_read(name, &n);
+    char *text = file_read_shape(name, &n);
     *out = (marks){0};
     if (text == NULL)
         return FAILED;

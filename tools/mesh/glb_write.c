@@ -1,10 +1,12 @@
-/* Writes a binary glTF file with other positions. They go back through the nodes that place them, and
- * their bounds in the JSON are updated. */
+/* Writes a glTF scene with other positions. They go back through the nodes that place them, and their
+ * bounds in the JSON are updated. In JSON, the bytes stand inside as a data: URI. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
+#include "base/base64.h"
 #include "base/bytes.h"
 #include "base/edits.h"
+#include "base/gltf_pack.h"
 #include "mesh/affine_map.h"
 #include "mesh/glb.h"
 
@@ -133,29 +135,51 @@ static void update_bounds(edits *e, const mesh_file *m, const glb *g, const char
     free(items);
 }
 
-static void write_chunk_head(size_t n, const char *type, FILE *stream)
+bool glb_is_json(const char *name)
 {
-    unsigned char bytes[4];
-    put_little_endian(bytes, (uint32_t)n);
-    fwrite(bytes, 1, 4, stream);
-    fwrite(type, 1, 4, stream);
+    static const char end[] = ".gltf";
+    size_t n = strlen(name), k = 0;
+    const char *tail = name + (n < sizeof end ? n : n - (sizeof end - 1));
+    while (end[k] != '\0' && (tail[k] | 0x20) == (end[k] | 0x20))
+        k++;
+    return end[k] == '\0';
 }
 
-/* Writes all up to the binary chunk. The JSON is padded with blanks to a multiple of four bytes. */
-static void write_json(const mesh_file *m, const glb *g, edits *e, FILE *stream)
+/* Puts the bytes of the binary chunk into the JSON. */
+static void embed(edits *e, const glb *g, const char *text)
 {
-    const char *json = m->text + g->json_at;
-    size_t n = edits_write(e, json, g->json->end, NULL), padded = (n + 3) / 4 * 4;
-    unsigned char total[4];
-    put_little_endian(total, (uint32_t)(20 + padded + m->n_text - g->json_end));
-    fwrite(m->text, 1, 8, stream);
-    fwrite(total, 1, 4, stream);
-    write_chunk_head(padded, "JSON", stream);
-    edits_write(e, json, g->json->end, stream);
-    fwrite("   ", 1, padded - n, stream);
+    const json_item *buffer = json_first(json_get(g->json, "buffers"));
+    const json_item *length = json_get(buffer, "byteLength");
+    size_t n = g->bin_n, n_digits;
+    if (g->bin_at == 0 || !json_is(buffer, JSON_OBJECT) || json_get(buffer, "uri") != NULL)
+        return;
+    if (json_is(length, JSON_NUMBER) && length->number >= 0 && length->number < (double)n)
+        n = (size_t)length->number;
+    char *digits = base64_encode(text + g->bin_at, n, &n_digits);
+    edits_replace(e, buffer->end - 1, buffer->end - 1);
+    edits_put_text(e, ",\"uri\":\"data:application/octet-stream;base64,");
+    edits_put(e, n_digits, digits);
+    edits_put_text(e, "\"");
+    free(digits);
 }
 
-void glb_write(const mesh_file *m, const double *points, FILE *stream)
+static void write_form(edits *e, const mesh_file *m, const glb *g, const char *text, bool as_json,
+                       FILE *stream)
+{
+    const char *json = text + g->json_at;
+    if (as_json) {
+        embed(e, g, text);
+        edits_write(e, json, g->json->end, stream);
+        fputs("\n", stream);
+        return;
+    }
+    size_t n;
+    char *whole = gltf_join(e, json, g->json->end, text + g->json_end, m->n_text - g->json_end, &n);
+    fwrite(whole, 1, n, stream);
+    free(whole);
+}
+
+void glb_write(const mesh_file *m, const double *points, bool as_json, FILE *stream)
 {
     problem none;
     glb g;
@@ -166,8 +190,7 @@ void glb_write(const mesh_file *m, const double *points, FILE *stream)
     for (size_t s = 0; s < g.n_sets; s++)
         put_positions(text, m, &g.sets[s], points);
     update_bounds(&e, m, &g, text);
-    write_json(m, &g, &e, stream);
-    fwrite(text + g.json_end, 1, m->n_text - g.json_end, stream);
+    write_form(&e, m, &g, text, as_json, stream);
     edits_free(&e);
     free(text);
     glb_close(&g);

@@ -74,7 +74,7 @@ bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *
         return false;
     if (out->n_vertices == 0)
         return spoilt(wrong, 0,
-                      "there are no vertices; the file must be OBJ, OFF, PLY, STL, glTF (.glb), "
+                      "there are no vertices; the file must be OBJ, OFF, PLY, STL, glTF, "
                       "Medit (.mesh), Gmsh (.msh) or VTK");
     return true;
 }
@@ -193,11 +193,11 @@ static void write_rest(const mesh_file *m, const double *points, size_t done, FI
 }
 
 /* The file is written as it was read, except the types and the spans. */
-void mesh_write(const mesh_file *m, const double *points, FILE *stream)
+void mesh_write(const mesh_file *m, const double *points, const char *name, FILE *stream)
 {
     size_t done = 0;
     if (mesh_is_glb(m->text, m->n_text)) {
-        glb_write(m, points, stream);
+        glb_write(m, points, glb_is_json(name), stream);
         return;
     }
     for (size_t i = 0; i < m->n_types; i++) {

@@ -1,5 +1,5 @@
 /* Reads and writes meshes in the plane and in space: OBJ, OFF and Medit (.mesh) as text, legacy
- * VTK, Gmsh, PLY and STL as text or binary, binary glTF.
+ * VTK, Gmsh, PLY and STL as text or binary, glTF (JSON is made binary first: gltf_pack.h).
  *
  * The file is kept as it is. Only the first coordinates of each vertex are read and, on writing,
  * replaced, as many as the mesh has dimensions. All elements are known by their kinds. Faces with
@@ -127,7 +127,8 @@ void mesh_free(mesh_file *m);
  * *beyond has one that is too large. */
 bool mesh_round(const mesh_file *m, double *points, size_t *beyond);
 
-/* Writes the file with other coordinates. All must be finite and rounded. */
-void mesh_write(const mesh_file *m, const double *points, FILE *stream);
+/* Writes the file with other coordinates. All must be finite and rounded. A scene of glTF becomes
+ * JSON if `name`, that of the output, ends in .gltf, else one binary file. */
+void mesh_write(const mesh_file *m, const double *points, const char *name, FILE *stream);
 
 #endif

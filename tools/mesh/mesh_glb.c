@@ -35,8 +35,8 @@ static bool read_set(mesh_file *m, const char *text, const glb_positions *set,
             affine_apply(point, place->out, values);
         for (size_t d = 0; d < m->dim; d++)
             if (!isfinite(point[d]))
-                return spoilt(wrong, 0, "byte %zu: vertex %zu of accessors[%zu] is not finite", at,
-                              i, set->accessor);
+                return spoilt(wrong, 0, "vertex %zu of accessors[%zu] is not finite", i,
+                              set->accessor);
     }
     return true;
 }
@@ -86,8 +86,8 @@ static bool corner(lines *r, const corner_list *list, size_t i)
     size_t at = indices->at + i * indices->stride;
     size_t vertex = indices->size == 0 ? i : little_endian(list->g->text + at, indices->size);
     if (vertex >= list->set->items.n)
-        return spoilt(r->wrong, 0, "byte %zu: index %zu of accessors[%zu] is %zu; there are %zu",
-                      at, i, list->accessor, vertex, list->set->items.n);
+        return spoilt(r->wrong, 0, "index %zu of accessors[%zu] is %zu; there are %zu", i,
+                      list->accessor, vertex, list->set->items.n);
     lines_corner(r, (uint32_t)(list->set->first + vertex));
     return true;
 }

@@ -60,10 +60,11 @@ bool mesh_read_ply(lines *r);
 bool mesh_read_stl(lines *r);
 bool mesh_read_glb(lines *r);
 
-/* For glTF: the place of the vertices from `first` on, or NULL, and its versions of mesh_round()
- * and mesh_write(). */
+/* For glTF: the place of the vertices from `first` on, or NULL, its versions of mesh_round() and
+ * mesh_write(), and whether a file of that name is JSON. */
 const mesh_place *glb_place(const mesh_file *m, size_t first);
 bool glb_round(const mesh_file *m, double *points, size_t *beyond);
-void glb_write(const mesh_file *m, const double *points, FILE *stream);
+void glb_write(const mesh_file *m, const double *points, bool as_json, FILE *stream);
+bool glb_is_json(const char *name);
 
 #endif

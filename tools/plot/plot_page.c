@@ -7,6 +7,7 @@
 #include "plot/plot_page.h"
 
 #include "base/allocate.h"
+#include "base/base64.h"
 #include "base/system.h"
 #include "report/reason.h"
 
@@ -33,21 +34,10 @@ static void put_word(unsigned char *to, uint32_t word)
 }
 
 /* Writes 4 n bytes as a string of base64. */
-static void write_base64(json *j, const char *name, const unsigned char *bytes, size_t n_words)
+static void write_base64(json *j, const char *name, const unsigned char *bytes, size_t n)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    size_t n = 4 * n_words, at = 0;
-    char *text = need(n / 3 * 4 + 8, 1);
-    text[at++] = '"';
-    for (size_t i = 0; i < n; i += 3) {
-        uint32_t three = 0;
-        for (size_t k = 0; k < 3; k++)
-            three = three << 8 | (i + k < n ? bytes[i + k] : 0U);
-        for (size_t k = 0; k < 4; k++)
-            text[at++] = i + k > n ? '=' : digits[three >> (18 - 6 * k) & 63];
-    }
-    text[at++] = '"';
-    json_raw(j, name, text, at);
+    char *text = base64_encode(bytes, 4 * n, &n);
+    json_text(j, name, text);
     free(text);
 }
 

@@ -2,6 +2,7 @@
 #include "plot/svg.h"
 
 #include "base/allocate.h"
+#include "base/base64.h"
 #include "picture/picture_file.h"
 
 #include <stdlib.h>
@@ -31,20 +32,6 @@ void svg_label(FILE *svg, double x, double y, const char *text)
             x, y, text);
 }
 
-static void write_base64(FILE *svg, const unsigned char *bytes, size_t n)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < n; i += 3) {
-        unsigned group = (unsigned)bytes[i] << 16;
-        group |= i + 1 < n ? (unsigned)bytes[i + 1] << 8 : 0;
-        group |= i + 2 < n ? bytes[i + 2] : 0;
-        fputc(digits[group >> 18], svg);
-        fputc(digits[group >> 12 & 63], svg);
-        fputc(i + 1 < n ? digits[group >> 6 & 63] : '=', svg);
-        fputc(i + 2 < n ? digits[group & 63] : '=', svg);
-    }
-}
-
 int svg_picture(FILE *svg, double x, double y, double width, double height, const char *clip,
                 const picture *p)
 {
@@ -57,7 +44,9 @@ int svg_picture(FILE *svg, double x, double y, double width, double height, cons
             "<g clip-path=\"url(#%s)\"><image x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" "
             "preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
             clip, x, y, width, height);
-    write_base64(svg, bytes, n);
+    char *text = base64_encode(bytes, n, &n);
+    fputs(text, svg);
+    free(text);
     fputs("\"/></g>\n", svg);
     free(bytes);
     return DONE;

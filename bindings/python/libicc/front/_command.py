@@ -6,7 +6,6 @@ import argparse
 import shutil
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
@@ -20,7 +19,6 @@ from . import formats, layer, mesh
 from ._tally import Tally
 from .formats import FileError
 from .points import Points
-from .scene import pack
 
 OK, FAILED, USAGE, PARTLY = 0, 1, 2, 4
 
@@ -191,15 +189,12 @@ def _is_scene(path: str) -> bool:
 
 
 def _hand_over(argv: List[str]) -> int:
-    """glTF scenes are moved by the command libicc, which reads them as one file."""
+    """glTF scenes are moved by the command libicc."""
     command = shutil.which("libicc")
     if command is None:
         raise FileError(f"{next(filter(_is_scene, argv))}: only the command libicc moves glTF scenes; install it "
                         "(Debian: 'apt install libicc-tools')")
-    with tempfile.TemporaryDirectory() as folder:
-        packed = [str(pack(Path(word), Path(folder))) if word.lower().endswith(".gltf") and Path(word).exists() else word
-                  for word in argv]
-        done = subprocess.run([command, *packed], capture_output=True, text=True)
+    done = subprocess.run([command, *argv], capture_output=True, text=True)
     print(done.stdout, end="")
     print(done.stderr, end="", file=sys.stderr)
     return done.returncode
