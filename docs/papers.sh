@@ -6,7 +6,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
-need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev check libgmp-dev python3-numpy python3-pil librsvg2-bin
+need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev zlib1g-dev check libgmp-dev python3-numpy python3-pil librsvg2-bin
 
 page=docs/papers.md
 out=build/papers

@@ -13,7 +13,7 @@ case ${1:-} in
         exit 2
         ;;
 esac
-need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev python3-numpy python3-pil
+need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev zlib1g-dev python3-numpy python3-pil
 
 build=build/release
 out=build/examples/out

@@ -22,7 +22,7 @@ golden=tests/golden
 here=build/release/tests/golden
 saved=$PWD/build/ports/saved
 jobs=$(nproc)
-need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev check libgmp-dev \
+need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev zlib1g-dev check libgmp-dev \
     qemu-user mmdebstrap
 
 # Names of a machine: its compiler's, qemu's; and the release of Debian that has packages for it.

@@ -45,7 +45,8 @@ static void require_tally(const mesh_file *m)
 static void require_sound(const mesh_file *m)
 {
     require(m->n_vertices > 0);
-    require(m->n_spans == 1 || m->n_spans == m->dim || mesh_is_glb(m->text, m->n_text));
+    require(m->n_spans == 1 || m->n_spans == m->dim || mesh_is_glb(m->text, m->n_text) ||
+            m->vtu != NULL);
     require_ascending(m);
     for (size_t i = 0; i < m->n_vertices * m->dim; i++)
         require(isfinite(m->points[i]) != 0);

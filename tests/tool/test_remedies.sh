@@ -110,7 +110,7 @@ if command -v assimp >/dev/null; then
 fi
 if [ -e bin/meshio ] || command -v meshio >/dev/null; then
     printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n3 0 0 0\n0 3 0 0\n0 0 3 0\nTetrahedra\n1\n1 2 3 4 0\nEnd\n' >t.mesh
-    for format in ansys:ta.msh vtu:t.vtu abaqus:t.inp su2:t.su2 dolfin-xml:t.xml flac3d:t.f3grid \
+    for format in ansys:ta.msh abaqus:t.inp su2:t.su2 dolfin-xml:t.xml flac3d:t.f3grid \
         xdmf:t.xdmf exodus:t.exo cgns:t.cgns med:t.med; do
         meshio convert --output-format "${format%:*}" t.mesh "${format#*:}" >told 2>&1 || rm -f "${format#*:}"
         [ ! -e "${format#*:}" ] || follow "${format#*:}" mesh -s c.obj -t c.obj FILE out.vtk

@@ -84,7 +84,7 @@ for name in o.tif o.pdf o.obj o.json; do misnamed "$name" plot -s nowhere "$name
 for name in o.png o.pdf o.obj o.json; do
     misnamed "$name" weights -s nowhere -a nowhere --picture "$name"
 done
-for name in o.dae o.usd o.txt o.png o.vtu; do misnamed "$name" mesh -s nowhere -t nowhere nowhere.obj "$name"; done
+for name in o.dae o.usd o.txt o.png o.vtp; do misnamed "$name" mesh -s nowhere -t nowhere nowhere.obj "$name"; done
 for name in o.geojson o.csv o.xlsx o.npy; do
     misnamed "$name" map -s nowhere -t nowhere -o "$name"
     misnamed "$name" encode -s nowhere -o "$name"

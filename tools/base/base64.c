@@ -43,3 +43,36 @@ bool base64_decode(const char *text, size_t n, char *out, size_t *n_out)
     }
     return n % 4 != 1;
 }
+
+/* Decodes the next four characters. */
+static bool next_group(base64 *b)
+{
+    uint32_t group = 0;
+    size_t n_padded = 0;
+    for (size_t k = 0; k < 4; b->at++) {
+        if (b->at >= b->end)
+            return false;
+        if (memchr(" \t\r\n", *b->at, 4) != NULL)
+            continue;
+        const char *digit = memchr(digits, *b->at, sizeof digits - 1);
+        if (digit == NULL ? *b->at != '=' || k < 2 : n_padded > 0)
+            return false;
+        n_padded += digit == NULL;
+        group = group << 6 | (digit == NULL ? 0U : (uint32_t)(digit - digits));
+        k++;
+    }
+    b->n_group = b->n_left = 3 - n_padded;
+    for (size_t i = 0; i < 3; i++)
+        b->group[i] = (char)(group >> (16 - 8 * i) & 255);
+    return true;
+}
+
+bool base64_take(base64 *b, char *out, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (b->n_left == 0 && !next_group(b))
+            return false;
+        out[i] = b->group[b->n_group - b->n_left--];
+    }
+    return true;
+}

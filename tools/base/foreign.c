@@ -5,6 +5,7 @@
 #include "base/bytes.h"
 #include "base/foreign_table.h"
 #include "base/json_scan.h"
+#include "base/xml_tags.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -177,10 +178,12 @@ static const char *root_element(const char *p)
 
 static bool is_markup(const char *text, problem *wrong)
 {
+    tag first;
     const char *root = root_element(text);
     size_t n = root != NULL ? strcspn(root, " \t\r\n/>") : 0;
-    if (n == 7 && strncmp(root, "VTKFile", n) == 0 && strstr(root, "\"UnstructuredGrid\"") == NULL)
-        return told(wrong, "a VTK file in XML", USE_PARAVIEW);
+    if (n == 7 && strncmp(root, "VTKFile", n) == 0 && tag_next(&first, text) &&
+        tag_has(&first, "type", 4, "UnstructuredGrid"))
+        return false;
     return n > 0 && told_by(ROOT, root, n, true, wrong);
 }
 

@@ -131,7 +131,7 @@ const foreign_format foreign_formats[] = {
     {BEGINS("NDIME"), "an SU2 mesh", MAKE_VTK},
     {BEGINS("FoamFile"), "an OpenFOAM file; 'foamToVTK -ascii' in its case makes VTK of the mesh",
      NO_REMEDY},
-    {XML("VTKFile"), "a VTK file in XML", MAKE_VTK},
+    {XML("VTKFile"), "a VTK file in XML that is no unstructured grid", USE_PARAVIEW},
     {XML("Xdmf"), "an XDMF file", MAKE_VTK},
     {XML("dolfin"), "a FEniCS mesh", MAKE_VTK},
     {XML("febio_spec"), "a FEBio file; FEBio Studio exports VTK", NO_REMEDY},

@@ -15,9 +15,9 @@
  * Ways
  * - In: file.h reads bytes, foreign.h refuses other formats (the list: foreign_table.c), number.h,
  *   table.h, npy.h, json_in.h on json_tree.h (strings: json_decode.h). guess.h finds a mistyped
- *   word.
+ *   word. xml_tags.h: XML.
  * - Out: json.h reports, edits.h changes a text in place, progress.h draws the bar. bytes.h:
- *   binary.
+ *   binary. base64.h: binary as text.
  * - degrees.h: longitudes. orientation.h: exact signs.
  *
  * Begin with table.h, which shows all of these. */

@@ -17,7 +17,7 @@
  * - filling: a mesh of the inside, whose boundary is the cage.
  *
  * Ways
- * - SVG: cage_svg.c, its tags svg_tags.h, transforms svg_transform.h, path data cage_path.c, arcs
+ * - SVG: cage_svg.c, its tags xml_tags.h, transforms svg_transform.h, path data cage_path.c, arcs
  *   svg_arc.h, outlines and holes contours.h.
  * - Pictures: cage_picture.c, alpha_contours.h finds outlines, thin_polygons.h thins them.
  * - Features: cage_features.h, ties cage_ties.h. Degrees: cage_degrees.h. Defects: cage_defects.h.

@@ -51,12 +51,6 @@ static const char *skip_comments(const char *text)
     return text;
 }
 
-static bool is_word(const char *text, const char *word)
-{
-    size_t n = strlen(word);
-    return strncmp(text, word, n) == 0 && strchr(" \t\r\n#", text[n]) != NULL;
-}
-
 /* After a UTF-8 byte order mark and white space. */
 static const char *first_word(const char *text, size_t n)
 {
@@ -83,16 +77,14 @@ static bool read_any(cage *out, const cage_choice *choice, size_t dim, const cha
         return cage_read_picture(out, choice, text, n, wrong);
     if (foreign_told(text, n, wrong))
         return false;
-    if (choice->named != NULL && !is_json(p) && *p != '<') {
+    bool is_mesh = mesh_told(text, n);
+    if (choice->named != NULL && (is_mesh || (!is_json(p) && *p != '<'))) {
         char shown[64];
         return spoilt(wrong, 0, "only GeoJSON and SVG have names of shapes; %s was asked for",
                       choice_text(shown, choice->named));
     }
     out->dim = 3;
-    const char *first = skip_comments(p);
-    if (mesh_is_stl(text, n) || mesh_is_glb(text, n) || is_word(p, "ply") ||
-        is_word(first, "OFF") || is_obj(first) || strncmp(p, "# vtk DataFile", 14) == 0 ||
-        strncmp(first, "MeshVersion", 11) == 0 || strncmp(p, "$MeshFormat", 11) == 0)
+    if (is_mesh || is_obj(skip_comments(p)))
         return cage_read_surface(out, choice, dim, text, n, wrong);
     if (npy_told(text, n))
         return cage_read_npy(out, text, n, wrong);

@@ -8,8 +8,8 @@
 
 #include "base/allocate.h"
 #include "base/number.h"
+#include "base/xml_tags.h"
 #include "cage/cage_features.h"
-#include "cage/svg_tags.h"
 #include "cage/svg_transform.h"
 
 #include <math.h>

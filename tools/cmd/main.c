@@ -115,7 +115,7 @@ static const command commands[] = {
      .summary = "Moves the vertices of a mesh with their cage, or fills a surface",
      .example = "-s before.off -t after.off part.vtk moved.vtk",
      .details =
-         "IN may be OBJ, OFF, Medit (.mesh), legacy VTK, Gmsh (.msh), PLY, STL or glTF. OUT "
+         "IN may be OBJ, OFF, Medit (.mesh), legacy VTK, VTU, Gmsh (.msh), PLY, STL or glTF. OUT "
          "has the same format, and a glTF scene is written as JSON if OUT ends in .gltf. If a "
          "vertex lies outside the cage, nothing is written unless you give --outside keep.\n"
          "\n"

@@ -6,7 +6,7 @@
 
 #include "base/allocate.h"
 #include "base/number.h"
-#include "cage/svg_tags.h"
+#include "base/xml_tags.h"
 
 #include <stdlib.h>
 #include <string.h>

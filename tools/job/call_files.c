@@ -73,10 +73,10 @@ static const char *formats_of_operand(const args *a, const command *c)
            : c->bit & FOR_ANIMATE                          ? PICTURES ", animated PNG"
            : c->bit & FOR_WARP || a->warps || a->rectifies ? PICTURES
            : a->fill                                       ? "Medit, VTK"
-           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK, Gmsh"
+           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK, VTU, Gmsh"
            : c->bit & FOR_PLOT               ? "SVG, PNG, VTK, HTML"
            : c->bit & FOR_POSE && a->binding ? "text"
-           : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, Gmsh, " PICTURES
+           : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, VTU, Gmsh, " PICTURES
                                : NULL;
 }
 

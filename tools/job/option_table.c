@@ -77,7 +77,8 @@ const option options[] = {
      .help =
          "the cage before: text, CSV, GeoJSON, WKT, SVG or a cutout (PNG); in space OBJ, OFF, PLY, "
          "STL or "
-         "glTF; a Medit, VTK or Gmsh mesh; a .npy mask. FILE#name=Kent takes one shape of several"},
+         "glTF; a Medit, VTK, VTU or Gmsh mesh; a .npy mask. FILE#name=Kent takes one shape of "
+         "several"},
     {.name = "source",
      .letter = 's',
      .kind = OPTION_TEXT,
@@ -719,7 +720,7 @@ const option options[] = {
      .commands = FOR_CHARTS,
      .offset = AT(mesh),
      .value = "FILE",
-     .help = "mesh of the source's inside: Medit, VTK, OBJ, OFF or PLY; without --source its "
+     .help = "mesh of the source's inside: Medit, VTK, VTU, OBJ, OFF or PLY; without --source its "
              "boundary is the cage"},
     {.name = "target-mesh",
      .group = OPTIONS_RARE,

@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 #include "mesh/affine_map.h"
+#include "mesh/vtu.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -212,6 +213,9 @@ static bool has_line(const mesh_file *m, const char *word)
 static bool has_others(const mesh_file *m)
 {
     const mesh_normals *of = &m->vertex_normals;
+    for (size_t i = 0; m->vtu != NULL && i < m->vtu->n_arrays; i++)
+        if (m->vtu->arrays[i].is_normal)
+            return true;
     return strcmp(m->format, "VTK") == 0 || strcmp(m->format, "Medit") == 0
                ? has_line(m, "NORMALS ") || has_line(m, "Normals")
            : strcmp(m->format, "PLY") == 0 ? of->n_spans == 0 && strstr(m->text, " nx") != NULL

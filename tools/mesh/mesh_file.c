@@ -4,6 +4,7 @@
 #include "base/bytes.h"
 #include "base/foreign.h"
 #include "mesh/mesh_lines.h"
+#include "mesh/vtu.h"
 
 #include <float.h>
 #include <math.h>
@@ -26,11 +27,15 @@ static const format formats[] = {{"VTK", "# vtk DataFile", false, true, mesh_rea
                                  {"OBJ", "", false, false, mesh_read_obj}};
 static const format stl = {"STL", NULL, false, true, mesh_read_stl};
 static const format gltf = {"glTF", NULL, false, true, mesh_read_glb};
+static const format in_xml = {"VTU", NULL, false, true, mesh_read_vtu};
 
 /* Finds the format of a file of n bytes. `r` is then at its beginning, after comments. */
 static const format *find_format(lines *r, size_t n)
 {
-    const format *whole = mesh_is_glb(r->at, n) ? &gltf : mesh_is_stl(r->at, n) ? &stl : NULL;
+    const format *whole = mesh_is_glb(r->at, n)   ? &gltf
+                          : mesh_is_stl(r->at, n) ? &stl
+                          : vtu_told(r->at)       ? &in_xml
+                                                  : NULL;
     if (strncmp(r->at, "\xef\xbb\xbf", 3) == 0)
         r->at += 3;
     r->end = r->at + strcspn(r->at, "\n");
@@ -54,6 +59,12 @@ const char *mesh_format(const char *text, size_t n)
     return find_format(&r, n)->name;
 }
 
+bool mesh_told(const char *text, size_t n)
+{
+    lines r = {.at = text};
+    return find_format(&r, n)->read != mesh_read_obj;
+}
+
 static bool read_bytes(lines *r)
 {
     mesh_file *m = r->mesh;
@@ -75,7 +86,7 @@ bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *
     if (out->n_vertices == 0)
         return spoilt(wrong, 0,
                       "there are no vertices; the file must be OBJ, OFF, PLY, STL, glTF, "
-                      "Medit (.mesh), Gmsh (.msh) or VTK");
+                      "Medit (.mesh), Gmsh (.msh), VTK or VTU");
     return true;
 }
 
@@ -89,6 +100,9 @@ void mesh_free(mesh_file *m)
     free(m->vertex_normals.spans);
     free(m->vertex_normals.uses);
     free(m->places);
+    if (m->vtu != NULL)
+        vtu_free(m->vtu);
+    free(m->vtu);
     free(m->triangles);
     free(m->triangle_lines);
     free(m->tetrahedra);
@@ -198,6 +212,10 @@ void mesh_write(const mesh_file *m, const double *points, const char *name, FILE
     size_t done = 0;
     if (mesh_is_glb(m->text, m->n_text)) {
         glb_write(m, points, glb_is_json(name), stream);
+        return;
+    }
+    if (m->vtu != NULL) {
+        vtu_write(m, points, stream);
         return;
     }
     for (size_t i = 0; i < m->n_types; i++) {

@@ -1,5 +1,5 @@
 /* Reads and writes meshes in the plane and in space: OBJ, OFF and Medit (.mesh) as text, legacy
- * VTK, Gmsh, PLY and STL as text or binary, glTF (JSON is made binary first: gltf_pack.h).
+ * VTK, VTU, Gmsh, PLY and STL as text or binary, glTF (JSON is made binary first: gltf_pack.h).
  *
  * The file is kept as it is. Only the first coordinates of each vertex are read and, on writing,
  * replaced, as many as the mesh has dimensions. All elements are known by their kinds. Faces with
@@ -14,7 +14,8 @@
  * - plan: tables that prove the sign of a curved element (element_plan.h, element_sign.h).
  *
  * Ways
- * - Text formats read by mesh_lines.h; numbers of VTK by vtk_numbers.h. glTF: glb.h finds places,
+ * - Text formats read by mesh_lines.h; numbers of VTK by vtk_numbers.h. VTU: vtu.h finds arrays,
+ *   vtu_read.c reads and vtu_put.c writes their numbers. glTF: glb.h finds places,
  *   glb_nodes.c nodes, glb_vectors.c normals and morph targets, glb_write.c writes; affine_map.h.
  * - A new kind of element: element_kinds.h. The boundary of a mesh: mesh_boundary.h.
  *
@@ -73,7 +74,7 @@ typedef struct mesh_file {
     bool floats;        /* numbers are written as floats; otherwise as doubles */
     /* Where the numbers of each vertex begin and end in the text, in rising order: n_vertices *
      * n_spans pairs. Either one span has all coordinates (n_spans is 1), or span k has the
-     * coordinate order[k] (dim spans). 0 for glTF, which is written by its accessors. */
+     * coordinate order[k] (dim spans). 0 for glTF and VTU, which are written by their arrays. */
     size_t *spans, n_spans;
     unsigned char order[3];
     size_t types[3][2], n_types; /* type words before the numbers, which set their precision
@@ -85,6 +86,7 @@ typedef struct mesh_file {
     mesh_normals vertex_normals; /* of OBJ and PLY */
     size_t n_places;
     mesh_place *places; /* of glTF, in rising order */
+    struct vtu *vtu;    /* the arrays of VTU (mesh/vtu.h), or NULL */
     size_t n_faces;
     size_t n_triangles;
     uint32_t *triangles;    /* n_triangles * 3 */
@@ -110,9 +112,12 @@ typedef struct mesh_file {
     size_t room_normals;
 } mesh_file;
 
-/* The name of the format of text[0..n), with text[n] == '\0': VTK, PLY, Medit, OFF, STL, glTF, or
- * else OBJ. */
+/* The name of the format of text[0..n), with text[n] == '\0': VTK, VTU, PLY, Medit, Gmsh, OFF, STL,
+ * glTF, or else OBJ. */
 const char *mesh_format(const char *text, size_t n);
+
+/* True if the text begins like one of these formats. OBJ has no mark at its beginning. */
+bool mesh_told(const char *text, size_t n);
 
 /* True if it is STL, or binary glTF. */
 bool mesh_is_stl(const char *text, size_t n);

@@ -55,6 +55,7 @@ bool mesh_read_obj(lines *r);
 bool mesh_read_off(lines *r);
 bool mesh_read_medit(lines *r);
 bool mesh_read_vtk(lines *r);
+bool mesh_read_vtu(lines *r);
 bool mesh_read_gmsh(lines *r);
 bool mesh_read_ply(lines *r);
 bool mesh_read_stl(lines *r);
@@ -66,5 +67,8 @@ const mesh_place *glb_place(const mesh_file *m, size_t first);
 bool glb_round(const mesh_file *m, double *points, size_t *beyond);
 void glb_write(const mesh_file *m, const double *points, bool as_json, FILE *stream);
 bool glb_is_json(const char *name);
+
+/* For VTU: its version of mesh_write(). */
+void vtu_write(const mesh_file *m, const double *points, FILE *stream);
 
 #endif

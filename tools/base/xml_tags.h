@@ -1,6 +1,6 @@
-/* Reads the tags of an SVG text one after the other. */
-#ifndef SVG_TAGS_H
-#define SVG_TAGS_H
+/* Reads the tags of an XML text, such as SVG, one after the other. */
+#ifndef XML_TAGS_H
+#define XML_TAGS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* A small scanner for XML tags and attributes. */
-#include "cage/svg_tags.h"
+#include "base/xml_tags.h"
 
 #include <string.h>
 
