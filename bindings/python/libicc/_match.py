@@ -87,6 +87,10 @@ class Match(Saved):
         check(lib.match_get_info(self, ctypes.addressof(info)))
         return fields(info)
 
+    def __repr__(self) -> str:
+        info = self.info
+        return f"<libicc.Match: {info.dim}-D, {info.n_vertices} common vertices, sure {info.sure:.3g}>"
+
     def origins(self) -> Tuple[Ints, Ints]:
         """For every common vertex its number in the given source and in the given target; -1: it was added."""
         n = self.info.n_vertices

@@ -17,6 +17,9 @@ _SIDE = 280.0
 _MOST_FACES = 5000
 """A surface of more facets is told in words only, because notebooks keep every picture."""
 
+_OFF = 0.1
+"""How far lines may be off in pixels, so that points on straight parts are left out."""
+
 _GRID_LINES = 20
 
 _ON_A_LINE = 200
@@ -88,17 +91,31 @@ def stretch_of(vertices: Floats, images: Floats, simplices: Indices) -> Floats:
     return factors
 
 
+def _bends(line: Floats) -> List[int]:
+    """The points of a line without which it would be off by more than `_OFF` pixels, after Douglas and Peucker, 1973."""
+    kept, parts = {0, len(line) - 1}, [(0, len(line) - 1)]
+    while parts:
+        first, last = parts.pop()
+        way, from_first = line[last] - line[first], line[first + 1:last] - line[first]
+        if len(from_first) == 0:
+            continue
+        square = float(way @ way)
+        along = np.clip(from_first @ way / square, 0, 1) if square > 0 else np.zeros(len(from_first))
+        off = ((from_first - along[:, None] * way) ** 2).sum(axis=1)
+        if off.max() > _OFF**2:
+            middle = first + 1 + int(off.argmax())
+            kept.add(middle)
+            parts += [(first, middle), (middle, last)]
+    return sorted(kept)
+
+
 def _path(points: Floats, style: str) -> str:
     """Lines with NaN between as a path of SVG."""
-    words, pen = [], "M"
-    x: float
-    y: float
-    for x, y in points.round(1).tolist():
-        if x != x:
-            pen = "M"
-        else:
-            words.append(f"{pen}{x:g} {y:g}")
-            pen = "L"
+    words, gaps = [], np.flatnonzero(np.isnan(points[:, 0])).tolist()
+    for first, last in zip([-1, *gaps], [*gaps, len(points)]):
+        line = points[first + 1:last]
+        if len(line) > 1:
+            words.append("M" + "L".join(f"{x:g} {y:g}" for x, y in line[_bends(line)].round(1).tolist()))
     return f'<path d="{"".join(words)}" {style}/>'
 
 
@@ -122,6 +139,7 @@ def _svg(parts: List[str], n: int) -> str:
 
 
 _BLACK = 'fill="none" stroke="#222" stroke-width="1.5"'
+_RED = 'fill="none" stroke="#c33" stroke-width="1.5"'
 _BLUE = 'fill="none" stroke="#2a78c8" stroke-width="0.6"'
 
 
@@ -177,8 +195,8 @@ def draw_domain(domain: Domain) -> Optional[str]:
     parts = [_path(fit(closed_lines(vertices, facets)), 'fill="#dde8f4" fill-rule="evenodd" stroke="#222"')]
     for kind, own in domain.features:
         if kind == "line":
-            parts.append(_path(fit(own), _BLUE))
+            parts.append(_path(fit(own), _RED))
         elif kind == "point":
             x, y = fit(own)[0].tolist()
-            parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="#2a78c8"/>')
+            parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="#c33"/>')
     return _svg(parts, 1)
