@@ -95,6 +95,14 @@ agree docs/howto/link.md 'FetchContent_Declare(libicc GIT_REPOSITORY ' "$url.git
 
 agree bindings/python/pyproject.toml 'version = ' "\"$version\"" ''
 agree tools/libicc.manifest '  <assemblyIdentity .* version="' "$version.0" '"/>'
+plugin=examples/qgis/libicc_processing/metadata.txt
+agree $plugin 'version=' "$version" ''
+agree $plugin 'author=' "${contact% <*}" ''
+agree $plugin 'email=' "$(echo "$contact" | sed 's/.*<\(.*\)>/\1/')" ''
+for field in homepage repository; do
+    agree $plugin $field= "$url" ''
+done
+agree $plugin 'tracker=' "$url/issues" ''
 for page in docs/man/*.[135]; do
     agree "$page" '\.TH [^"]* "[^"]*" "libicc ' "$version" '" "[A-Za-z ]*"'
 done

@@ -42,6 +42,7 @@ from ._errors import (
 from ._field import Field, certify_field
 from ._fit import Fit, fit, nearest
 from ._image import PixelTransform, picture_cage, warp_image
+from ._layer import move_lines
 from ._map import Map
 from ._match import Match, match
 
@@ -86,6 +87,7 @@ __all__ = [
     "fit",
     "kernel",
     "match",
+    "move_lines",
     "nearest",
     "picture_cage",
     "repair_mask",

@@ -1,4 +1,4 @@
-"""Exact images of the lines and rings of a whole layer.
+"""Images of the lines and rings of a whole layer, exact or within a tolerance.
 
 A mesh map is linear in each of its triangles. So the image of a line is exact if the line gets a vertex wherever it
 crosses an edge of these triangles. Sides that neighbours share are cut once, from their smaller end, and a vertex on
@@ -7,19 +7,71 @@ another's side is put into it first. So a layer without gaps stays one, bit by b
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Tuple
+from typing import TYPE_CHECKING, Callable, Iterable, List, NamedTuple, Tuple
 
 import numpy as np
 
+from ._map import Map
+
 if TYPE_CHECKING:
-    from ._map import Map
-    from ._types import Array, Floats
+    from ._transform import Transform
+    from ._types import Array, ArrayLike, Floats
 
 _NEAR = 1e-9
 """A vertex this close to a side, as a share of the map's size, lies on it."""
 
 _SAME = 1e-12
 """Places this close are one: some thousand roundings, as a share of the map's size or of a side."""
+
+
+_MOST_ROUNDS = 12
+_QUARTERS = np.array([0.25, 0.5, 0.75])[:, None]
+
+
+def move_lines(lines: Iterable[ArrayLike], mapping: Transform, *, inverse: bool = False, tolerance: float = 0,
+               exact: bool = False) -> List[Floats]:
+    """Moves lines, rings and points by a map of the plane. Lines get more vertices where the map bends them.
+
+    >>> before, after = [[0, 0], [4, 0], [4, 3], [0, 3]], [[0, 0], [4, 1], [5, 4], [0, 3]]
+    >>> line, point = [[0.5, 1], [3.5, 1]], [[2, 2, 410]]              # a third coordinate stays
+    >>> moved = libicc.move_lines([line, point], libicc.Map(before, after), exact=True)
+    >>> len(moved[0]) > 2, moved[1].shape, float(moved[1][0, 2])
+    (True, (1, 3), 410.0)
+
+    Args:
+        lines: arrays (n, 2) or wider. Coordinates beyond the first two stay, and are interpolated at new vertices
+        mapping: a map of the plane
+        inverse: map from the target to the source
+        tolerance: edges get more vertices, at most 4095 each, until their quarter points are within this distance of
+            the true images; 0: no more vertices
+        exact: edges get a vertex wherever they cross an edge of the map's triangles, so their images are exact. A vertex
+            on another line's edge becomes a vertex of that edge, too. So rings that share edges stay without gaps and
+            overlaps. Only for mesh maps
+
+    Returns:
+        the lines in their order. Where a vertex, or an edge from it, has no image, x and y are NaN
+    """
+    if mapping.dim != 2:
+        raise ValueError(f"lines are of the plane; this map has dimension {mapping.dim}")
+    if exact and tolerance > 0:
+        raise ValueError("exact and tolerance exclude each other")
+    if exact and not (isinstance(mapping, Map) and mapping.info.kind == "mesh"):
+        raise ValueError("exact needs the triangles of a mesh map; for an inverse give the map itself and inverse=True, "
+                         "for others a tolerance")
+    arrays = [np.asarray(line, dtype=float) for line in lines]
+    if not arrays:
+        return []
+    width = max(line.shape[1] for line in arrays)
+    points = np.concatenate([np.pad(line, ((0, 0), (0, width - line.shape[1]))) for line in arrays])
+    number = np.repeat(np.arange(len(arrays)), [len(line) for line in arrays])
+    if exact:
+        assert isinstance(mapping, Map)
+        points, images, number = exact_images(points, number, mapping, inverse)
+    else:
+        points, images, number = _bent(points, number, mapping.apply_inverse if inverse else mapping.apply, tolerance)
+    points[:, :2] = images
+    parts = np.split(points, np.searchsorted(number, np.arange(1, len(arrays))))
+    return [part[:, :line.shape[1]] for part, line in zip(parts, arrays)]
 
 
 class _Sides(NamedTuple):
@@ -71,6 +123,42 @@ def exact_images(points: Floats, number: Array, mapping: Map, inverse: bool) -> 
     middles = (points[pieces, :2] + points[pieces + 1, :2]) / 2
     images[pieces[np.isnan(carry(middles)).any(axis=1)]] = np.nan
     return points, images, number
+
+
+def _bent(points: Floats, number: Array, carry: Callable[[Floats], Floats],
+          tolerance: float) -> Tuple[Floats, Floats, Array]:
+    """Adds vertices until all lines are right to a tolerance: the positions, their images, and the line of each."""
+    images = carry(points[:, :2])
+    begins = np.flatnonzero(number[:-1] == number[1:]) if tolerance > 0 else np.empty(0, int)
+    for _ in range(_MOST_ROUNDS):
+        begins, points, images, number = _split(begins, points, images, number, carry, tolerance)
+        if len(begins) == 0:
+            break
+    return points, images, number
+
+
+def _split(begins: Array, points: Floats, images: Floats, number: Array, carry: Callable[[Floats], Floats],
+           tolerance: float) -> Tuple[Array, Floats, Floats, Array]:
+    """Halves the edges that begin at these points where their images bend. Returns where the halves begin, and all
+    points with those between. A quarter without an image takes that of its edge away."""
+    edges = points[begins, None] + _QUARTERS * (points[begins + 1] - points[begins])[:, None]
+    checks = carry(edges[:, :, :2]) if len(begins) else np.empty((0, 3, 2))
+    lost = np.isnan(checks).any(axis=(1, 2))
+    images[begins[lost]] = np.nan
+    far = ~lost & (_off(images[begins], images[begins + 1], checks) > tolerance)
+    at = begins[far] + 1
+    first = at + np.arange(len(at))
+    return (np.sort(np.concatenate([first - 1, first])), np.insert(points, at, edges[far, 1], axis=0),
+            np.insert(images, at, checks[far, 1], axis=0), np.insert(number, at, number[begins[far]]))
+
+
+def _off(a: Floats, b: Floats, checks: Floats) -> Floats:
+    """Distance from each segment a b to the farthest of its checks (n, 3, 2)."""
+    along = (b - a)[:, None]
+    square = (along**2).sum(-1)
+    share = ((checks - a[:, None]) * along).sum(-1) / np.where(square > 0, square, 1)
+    nearest = a[:, None] + np.clip(share, 0, 1)[..., None] * along
+    return np.sqrt(((checks - nearest) ** 2).sum(-1)).max(axis=1)
 
 
 def _sides_of(node: Array, number: Array) -> _Sides:
