@@ -95,6 +95,7 @@ agree docs/howto/link.md 'FetchContent_Declare(libicc GIT_REPOSITORY ' "$url.git
 
 agree bindings/python/pyproject.toml 'version = ' "\"$version\"" ''
 agree tools/libicc.manifest '  <assemblyIdentity .* version="' "$version.0" '"/>'
+agree examples/blender/libicc_cage/__init__.py '    "version": (' "$(echo "$version" | sed 's/[.]/, /g')" '),'
 plugin=examples/qgis/libicc_processing/metadata.txt
 agree $plugin 'version=' "$version" ''
 agree $plugin 'author=' "${contact% <*}" ''

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the plugin for QGIS: a zip file with the Python package and the library inside.
+"""Makes the plugin for QGIS and the add-on for Blender: zip files with the Python package and the library inside.
 
-    python3 examples/addons.py FOLDER [WHEEL]      writes libicc-qgis.zip
+    python3 examples/addons.py FOLDER [WHEEL]      writes libicc-qgis.zip and libicc-blender.zip
 
 Without a wheel one is made, for machines like this one. It needs setuptools, wheel, CMake and a C compiler.
 LIBICC_LIBRARY=FILE in the environment takes a library that has been compiled already.
@@ -17,7 +17,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
 SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "include", "lib", "bindings/python")
-ADDONS = {"libicc-qgis.zip": "qgis/libicc_processing"}
+ADDONS = {"libicc-qgis.zip": "qgis/libicc_processing", "libicc-blender.zip": "blender/libicc_cage"}
 
 
 def make_wheel(folder):

@@ -22,7 +22,7 @@ need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev zlib1g-dev c
     abigail-tools python3-numpy python3-pytest python3-cffi tetgen
 if [ "$tier" = long ]; then
     need clang libclang-rt-dev llvm python3-gmsh python3-h5py python3-netcdf4 python3-nibabel python3-pydicom \
-        python3-nbclient python3-ipykernel qgis python3-qgis
+        python3-nbclient python3-ipykernel qgis python3-qgis blender
 fi
 if [ "$tier" != plain ]; then
     need libsuitesparse-dev cargo rustc mypy doxygen mandoc man-db clang-format netpbm librsvg2-bin proj-bin gdal-bin \
