@@ -80,6 +80,56 @@ run 0 map -s outer.obj -t moved.obj --mesh-out before.mesh -p middle.txt
 # A surface inside divides the tetrahedra: 1 outside of it, 2 within. The objects may come in another order.
 run 0 map -s solid.obj -t turned.obj --mesh-out before.mesh --target-mesh-out after.mesh
 awk 'NF == 5 { n[$5]++; if ($5 != 1 && $5 != 2) bad = 1 } END { exit bad || !n[1] || !n[2] }' before.mesh || complain "regions are wrong"
+
+# The same numbers in all formats. Each line is a tetrahedron: its corners from 1, and its region.
+medit() { awk '$1 == "Tetrahedra" || $1 == "Triangles" { on = 1; getline; next } on && NF > 3' "$1"; }
+gmsh() { awk '$1 == "$Elements" { on = 1; getline; next } on && NF > 3 { if ($4 != $5) print "tags differ"; $1 = $2 = $3 = $4 = ""; r = $5; $5 = ""; print $0, r }' "$1"; }
+vtk() { awk '$1 == "CELLS" { on = 1; next } $1 == "CELL_TYPES" { on = 0 } $1 == "LOOKUP_TABLE" { on = 2; next }
+    on == 1 { c = $2 + 1; for (i = 3; i <= NF; i++) c = c " " $i + 1; cell[++n] = c } on == 2 { print cell[++k], $1 }' "$1"; }
+vtu() { awk '/Name=/ { split($0, a, "\""); for (i in a) if (a[i] ~ / Name=/) name = a[i + 1]; k = 0; next } /^</ { name = ""; next }
+    name == "connectivity" { c = $1 + 1; for (i = 2; i <= NF; i++) c = c " " $i + 1; cell[++n] = c } name == "region" { print cell[++k], $1 }' "$1"; }
+formats_agree() {
+    medit "$1.mesh" >expected
+    [ -s expected ] || complain "$1.mesh has no elements"
+    for form in "gmsh msh" "vtk vtk" "vtu vtu"; do
+        ${form% *} "$1.${form#* }" | awk '{ $1 = $1; print }' >found
+        same found expected
+    done
+}
+for end in msh vtk vtu; do
+    run 0 map -s solid.obj -t turned.obj --mesh-out before.$end --target-mesh-out after.$end
+done
+formats_agree before
+formats_agree after
+for end in mesh msh vtk vtu; do
+    run 0 check -s before.$end
+    grep -q 'volume 999' out || complain "$end: $(cat out)"
+done
+printf '0 0\n4 0\n4 3\n0 4\n' >flat.txt
+for end in mesh msh vtk vtu; do
+    run 0 map -s flat.txt -t flat.txt --mesh-out flat.$end
+done
+formats_agree flat
+run 0 mesh -s flat.txt -t flat.txt flat.msh same.msh
+
+# What lies inside, for other commands: filled, carried and drawn.
+for end in mesh msh vtk vtu; do
+    run 0 mesh --fill --void void.obj --surface surface.obj --feature-lines lines.json --feature-points points.csv outer.obj filled.$end
+done
+sed -i '/^Triangles/,/^Tetrahedra/{/^Tetrahedra/!d}' filled.mesh
+formats_agree filled
+awk 'NF == 5 { n[$5]++; if ($5 != 1 && $5 != 2) bad = 1 } END { exit bad || !n[1] || !n[2] }' filled.mesh || complain "filled regions are wrong"
+run 0 mesh -s outer.obj -t outer.obj --void void.obj --target-void void.obj --surface surface.obj --target-surface surface.obj \
+    before.mesh again.mesh
+medit again.mesh >found
+medit before.mesh >expected
+same found expected
+run 0 plot -s outer.obj -t outer.obj --void void.obj --target-void void.obj out.svg
+run 2 mesh --fill --target-void void.obj outer.obj out.mesh
+says '--target-void needs --target'
+run 2 mesh --fit lines.json --surface surface.obj flat.msh out.msh
+says '--surface does not go with --fit'
+
 printf '4 4 4\n7.5 7.5 7.5\n9 9 1\n' >some.txt
 run 0 map -s solid.obj -t turned.obj -p some.txt
 close_to out some.txt 1e-9
@@ -99,8 +149,6 @@ run 2 check -s outer.obj --target-void void.obj
 says '--target-void needs --target'
 run 2 check -s outer.obj --target-feature-points points.csv
 says '--target-feature-points needs --feature-points'
-run 1 map -s plane.txt -t plane.txt --mesh-out out.mesh
-says '--mesh-out writes tetrahedra'
 run 2 map -s solid.obj -t turned.obj --mesh-out out.mesh --map curves
 says '--mesh-out needs a mesh map'
 run 2 map -s solid.obj -t turned.obj --mesh-out out.json

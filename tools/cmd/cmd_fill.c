@@ -5,6 +5,7 @@
 #include "base/allocate.h"
 #include "job/job.h"
 #include "job/output_name.h"
+#include "mesh/numbered_mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 typedef struct tetrahedra {
     size_t n_points, n_boundary, n, n_faces;
     double *points;
-    uint32_t *corners, *faces;
+    uint32_t *corners, *faces, *regions;
 } tetrahedra;
 
 static tetrahedra take_mesh(const icc_domain *filled)
@@ -26,6 +27,7 @@ static tetrahedra take_mesh(const icc_domain *filled)
     m.points = need(m.n_points, 3 * sizeof *m.points);
     m.corners = need(m.n, 4 * sizeof *m.corners);
     m.faces = need(m.n_faces, 3 * sizeof *m.faces);
+    m.regions = need(m.n, sizeof *m.regions);
     icc_mesh mesh = {.size = sizeof mesh,
                      .n_vertices = m.n_points,
                      .vertices = m.points,
@@ -33,55 +35,21 @@ static tetrahedra take_mesh(const icc_domain *filled)
                      .cells = m.corners};
     icc_domain_get_mesh(filled, &mesh);
     icc_domain_get_boundary(filled, NULL, m.faces);
+    icc_domain_get_regions(filled, m.regions);
     return m;
 }
 
-static void write_medit(const tetrahedra *m, FILE *out)
-{
-    fprintf(out, "MeshVersionFormatted 2\nDimension 3\nVertices\n%zu\n", m->n_points);
-    for (size_t i = 0; i < m->n_points; i++)
-        fprintf(out, "%.17g %.17g %.17g 0\n", m->points[3 * i], m->points[3 * i + 1],
-                m->points[3 * i + 2]);
-    fprintf(out, "Triangles\n%zu\n", m->n_faces);
-    for (size_t i = 0; i < m->n_faces; i++)
-        fprintf(out, "%lu %lu %lu 0\n", m->faces[3 * i] + 1UL, m->faces[3 * i + 1] + 1UL,
-                m->faces[3 * i + 2] + 1UL);
-    fprintf(out, "Tetrahedra\n%zu\n", m->n);
-    for (size_t i = 0; i < m->n; i++)
-        fprintf(out, "%lu %lu %lu %lu 0\n", m->corners[4 * i] + 1UL, m->corners[4 * i + 1] + 1UL,
-                m->corners[4 * i + 2] + 1UL, m->corners[4 * i + 3] + 1UL);
-    fprintf(out, "End\n");
-}
-
-static void write_vtk(const tetrahedra *m, FILE *out)
-{
-    fprintf(out, "# vtk DataFile Version 3.0\nlibicc\nASCII\nDATASET UNSTRUCTURED_GRID\n");
-    fprintf(out, "POINTS %zu double\n", m->n_points);
-    for (size_t i = 0; i < m->n_points; i++)
-        fprintf(out, "%.17g %.17g %.17g\n", m->points[3 * i], m->points[3 * i + 1],
-                m->points[3 * i + 2]);
-    fprintf(out, "CELLS %zu %zu\n", m->n, 5 * m->n);
-    for (size_t i = 0; i < m->n; i++)
-        fprintf(out, "4 %lu %lu %lu %lu\n", (unsigned long)m->corners[4 * i],
-                (unsigned long)m->corners[4 * i + 1], (unsigned long)m->corners[4 * i + 2],
-                (unsigned long)m->corners[4 * i + 3]);
-    fprintf(out, "CELL_TYPES %zu\n", m->n);
-    for (size_t i = 0; i < m->n; i++)
-        fprintf(out, "10\n");
-}
-
-/* Writes VTK if the name asks for it, else Medit. */
+/* Writes the format that the name asks for, else Medit. */
 static int write_filled(const job *j, const icc_domain *filled)
 {
-    const char *name = j->args->operands[1], *format = output_format(name);
+    const char *name = j->args->operands[1];
     outfile file;
     if (!outfile_open(&file, name))
         return FAILED;
     tetrahedra m = take_mesh(filled);
-    if (format != NULL && strcmp(format, "VTK") == 0)
-        write_vtk(&m, file.stream);
-    else
-        write_medit(&m, file.stream);
+    const numbered_mesh mesh = {3,         m.n_points, m.n,       m.points,
+                                m.corners, m.regions,  m.n_faces, m.faces};
+    numbered_mesh_write(&mesh, output_format(name), file.stream);
     const bool written = outfile_close(&file);
     if (written && strcmp(name, "-") != 0 && !j->args->quiet)
         printf("%zu tetrahedra, %zu vertices, %zu of them inside\n", m.n, m.n_points,
@@ -89,6 +57,7 @@ static int write_filled(const job *j, const icc_domain *filled)
     free(m.points);
     free(m.corners);
     free(m.faces);
+    free(m.regions);
     return written ? DONE : FAILED;
 }
 

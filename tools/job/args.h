@@ -107,6 +107,8 @@ enum {
     FOR_PLOT = 128,
     FOR_CHARTS = 255, /* all of the above */
     MAY_PAIR = FOR_MAP | FOR_WARP | FOR_MESH | FOR_CHECK | FOR_INFO | FOR_PLOT,
+    /* Commands that read what lies inside a solid from files of its own. */
+    FOR_SOLIDS = FOR_MAP | FOR_MESH | FOR_CHECK | FOR_INFO | FOR_PLOT,
     FILLS_HOLES = FOR_MAP | FOR_WARP | FOR_CHECK,
     FLIPS_CAGES = FOR_MAP | FOR_MESH | FOR_CHECK | FOR_PLOT | 1024, /* FOR_MATCH */
     FOR_WEIGHTS = 256,

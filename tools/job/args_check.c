@@ -34,7 +34,7 @@ static int check_triangulation(const args *a, const command *c)
 /* Checks options of features in space. */
 static int check_solid(const args *a, const command *c)
 {
-    const bool one_sided = a->target == NULL && a->source != NULL;
+    const bool one_sided = a->target == NULL && (a->source != NULL || a->fill);
     if (a->target_feature_points != NULL && a->feature_points == NULL)
         return misused(c->name, "--target-feature-points needs --feature-points");
     if (a->target_feature_lines != NULL && a->feature_lines == NULL)
@@ -199,6 +199,8 @@ static int check_fill(const args *a, const command *c)
                                               : NULL;
     if (of_maps != NULL)
         return misused(c->name, "--%s does not go with --fill", of_maps);
+    if (check_solid(a, c) != DONE)
+        return MISUSED;
     return a->n_operands < 2 ? misused(c->name, "usage: libicc mesh --fill SURFACE OUT") : DONE;
 }
 
@@ -219,6 +221,10 @@ static int check_moved_mesh(const args *a, const command *c)
                           : a->map != 0       ? "map"
                           : a->match != NULL  ? "match"
                           : a->fill           ? "fill"
+                          : a->voids.n > 0    ? "void"
+                          : a->surfaces.n > 0 ? "surface"
+                          : a->feature_points ? "feature-points"
+                          : a->feature_lines  ? "feature-lines"
                                               : NULL;
     const char *of_fit = a->slides          ? "slide"
                          : a->frees         ? "free"

@@ -6,6 +6,7 @@
 #include "base/say.h"
 #include "base/system.h"
 #include "job/output_name.h"
+#include "mesh/numbered_mesh.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,7 +73,7 @@ static const char *formats_of_operand(const args *a, const command *c)
     return a->geojson                                      ? "GeoJSON, GeoJSONSeq, JSON"
            : c->bit & FOR_ANIMATE                          ? PICTURES ", animated PNG"
            : c->bit & FOR_WARP || a->warps || a->rectifies ? PICTURES
-           : a->fill                                       ? "Medit, VTK"
+           : a->fill                                       ? NUMBERED_MESHES
            : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK, VTU, Gmsh"
            : c->bit & FOR_PLOT               ? "SVG, PNG, VTK, HTML"
            : c->bit & FOR_POSE && a->binding ? "text"
@@ -87,8 +88,8 @@ bool call_output(call_file *out, const args *a, const command *c, size_t i)
         {a->output, "--output", c->bit & FOR_MATCH ? "text, GeoJSON, JSON, " SURFACES : "text"},
         {a->target_output, "--target-output", "text, GeoJSON, JSON, " SURFACES},
         {a->triangulation, "--triangulation", "JSON"},
-        {a->mesh_out, "--mesh-out", "Medit"},
-        {a->target_mesh_out, "--target-mesh-out", "Medit"},
+        {a->mesh_out, "--mesh-out", NUMBERED_MESHES},
+        {a->target_mesh_out, "--target-mesh-out", NUMBERED_MESHES},
         {a->ties, "--ties", "GeoJSON, JSON"},
         {a->repair, "--repair", "text, GeoJSON, JSON, " SURFACES ", NumPy"},
         {a->boundary, "--boundary", "text, GeoJSON, JSON, " SURFACES},
