@@ -6,7 +6,7 @@
 #   linux-x86_64    the command for Linux, one file that needs no library
 #   linux-arm64     the same for arm64, by Debian's cross compiler
 #   windows         the command and the library for Windows, by mingw-w64
-#   python          the Python wheels for both Linux machines, and the source distribution
+#   python          the Python wheels for both Linux machines, the source distribution, and the add-ons for QGIS and Blender
 #   crates          the Rust crates
 #   npm             the npm package, and the studio, which is one page
 #   debian          the Debian packages; needs root
@@ -54,7 +54,7 @@ archive() {
 prepare() {
     [ "$(cat "$made/commit" 2>/dev/null)" != "$commit" ] || return 0
     [ -z "$(git status --porcelain)" ] || echo "dist: changes that are not committed stay out" >&2
-    rm -rf "$dist" "$tree" "$made"/*/build "$made"/*/libicc.so.0
+    rm -rf "$dist" "$tree" "$made"/*/build "$made"/*/libicc.so.0 "$made"/windows/libicc-*
     mkdir -p "$tree" "$dist"
     archive | tar -C "$tree" -x
     echo "$commit" >"$made/commit"
@@ -164,6 +164,23 @@ make_windows() {
     (cd "$work" && /usr/bin/python3 -m zipfile -c "$dist/$folder.zip" "$folder")
 }
 
+# The zip files for QGIS and Blender serve Linux on x86-64 and Windows at once.
+addons() {
+    set --
+    for library in "$made/linux-x86_64/libicc.so.0" "$made/windows/$release-windows-x86_64/libicc.dll"; do
+        if [ -e "$library" ]; then
+            set -- "$@" "$library"
+        else
+            echo "left out: ${library##*/} in the add-ons, because it has not been made"
+        fi
+    done
+    [ $# -gt 0 ] || return 0
+    /usr/bin/python3 -B "$tree/examples/addons.py" "$work" "$@"
+    for program in qgis blender; do
+        mv "$work/libicc-$program.zip" "$dist/$release-$program.zip"
+    done
+}
+
 # The wheels hold the shared libraries that have been made for the command's machines.
 make_python() {
     need python3-setuptools python3-wheel cmake
@@ -180,6 +197,7 @@ make_python() {
             LIBICC_LIBRARY=$library /usr/bin/python3 setup.py -q bdist_wheel --dist-dir "$dist"
         )
     done
+    addons
     rm -rf "$work/source" "$work/sdist"
     cp -r "$tree" "$work/source"
     (

@@ -82,6 +82,8 @@ END
 row "$name-linux-x86_64.tar.gz" linux-x86_64 "the command for Linux on x86-64; unpack and run \`libicc demo\`"
 row "$name-linux-arm64.tar.gz" linux-arm64 "the command for Linux on arm64"
 row "$name-windows-x86_64.zip" windows "the command and the library for Windows"
+row "$name-qgis.zip" python "the plugin for QGIS on Windows and on Linux on x86-64; *Install from ZIP*"
+row "$name-blender.zip" python "the add-on for Blender on the same systems; *Install* under *Add-ons*"
 row studio.html npm "the studio; open it in a browser"
 row "$name.tar.xz" source "the sources"
 cat <<END

@@ -2,8 +2,8 @@
 
 usage: blender -b --factory-startup -P blender_cage.py -- ZIP      libicc-blender.zip, as examples/addons.py makes it
 
-BLENDER_USER_SCRIPTS must be a scratch folder that exists, because the add-on is installed there. A ball in a box, the top of which is twisted. A
-tube, which has no lids, is refused.
+BLENDER_USER_SCRIPTS must be a scratch folder that exists, because the add-on is installed there. The scene is a ball in
+a box whose top is twisted. A tube, which has no lids, is refused.
 """
 
 import os
@@ -62,8 +62,8 @@ def expected(addon, libicc, mesh, thing, name):
     keys, faces = thing.data.shape_keys.key_blocks, addon.triangles(thing.data)
     rest, pose = (addon.coordinates(keys[key].data) for key in ("Basis", name))
     mapping = libicc.Map(libicc.Domain(rest, faces).filled(), libicc.Domain(pose, faces))
-    places = mapping(addon.transformed(np.linalg.inv(thing.matrix_world) @ np.array(mesh.matrix_world), addon.at_rest(mesh)))
-    return addon.transformed(thing.matrix_world, places)
+    to_cage = np.linalg.inv(thing.matrix_world) @ np.array(mesh.matrix_world)
+    return addon.transformed(thing.matrix_world, mapping(addon.transformed(to_cage, addon.at_rest(mesh))))
 
 
 def test_deform(addon, libicc, ball, thing):
@@ -74,7 +74,8 @@ def test_deform(addon, libicc, ball, thing):
         assert addon.bound["Box"].map.certified
         places = shown(addon, ball)
         assert np.abs(places - expected(addon, libicc, ball, thing, name)).max() < 1e-5, "a shape key holds floats"
-        assert volume(places, addon.triangles(ball.data)) > 0.9 * volume(addon.at_rest(ball), addon.triangles(ball.data))
+        faces = addon.triangles(ball.data)
+        assert volume(places, faces) > 0.9 * volume(addon.at_rest(ball), faces)
     assert ball.libicc_cage is None
 
 
@@ -101,10 +102,10 @@ def test_bind(addon, libicc, ball, thing):
         off = np.abs(shown(addon, ball) - expected(addon, libicc, ball, thing, name)).max()
         assert off < 1e-5, (frame, off)
     bpy.context.scene.frame_set(4)
-    assert np.abs(shown(addon, ball) - expected(addon, libicc, ball, thing, "Basis")).max() < 1e-5, "it stays"
+    assert np.abs(shown(addon, ball) - expected(addon, libicc, ball, thing, "Basis")).max() < 1e-5, "it does not stay"
     ball.libicc_cage = None
     bpy.context.scene.frame_set(3)
-    assert np.abs(shown(addon, ball) - expected(addon, libicc, ball, thing, "Basis")).max() < 1e-5, "it is no longer bound"
+    assert np.abs(shown(addon, ball) - expected(addon, libicc, ball, thing, "Basis")).max() < 1e-5, "it is still bound"
     return ball
 
 

@@ -167,13 +167,12 @@ def test_two_layers_of_points():
     _, log = run("georeference", POINTS=points_file(), INPUT=below, OUTPUT="TEMPORARY_OUTPUT")
     assert "No control point is near the layer" in log, log
 
-    refused("Both layers need this field", "georeference", SOURCE_POINTS=points(SOURCE), TARGET_POINTS=target, ID="number")
-    refused("Two source points", "georeference", SOURCE_POINTS=points(SOURCE, NAMES[:5] + ["oak"]), TARGET_POINTS=target,
-            ID="name")
-    refused("church and well coincide", "georeference", SOURCE_POINTS=points([*SOURCE[[0, 0]], *SOURCE[2:]]),
-            TARGET_POINTS=target, ID="name")
-    refused("mirror image", "georeference", SOURCE_POINTS=points(SOURCE * [1, -1]), TARGET_POINTS=target, ID="name")
-    refused("At least three", "georeference", SOURCE_POINTS=points(SOURCE[:2], NAMES[:2]), TARGET_POINTS=target, ID="name")
+    for word, field, source in (("Both layers need this field", "number", points(SOURCE)),
+                                ("Two source points", "name", points(SOURCE, NAMES[:5] + ["oak"])),
+                                ("church and well coincide", "name", points([*SOURCE[[0, 0]], *SOURCE[2:]])),
+                                ("mirror image", "name", points(SOURCE * [1, -1])),
+                                ("At least three", "name", points(SOURCE[:2], NAMES[:2]))):
+        refused(word, "georeference", SOURCE_POINTS=source, TARGET_POINTS=target, ID=field)
     refused("Choose a file", "georeference", SOURCE_POINTS=points(SOURCE))
     bad = FOLDER / "bad.points"
     bad.write_text("mapX,mapY,sourceX,sourceY,enable\n1,2,x,4,1\n")
@@ -234,7 +233,8 @@ def test_rasters():
 
 def test_regions():
     names = ["north", "south"]
-    before = layer("Polygon", [polygon([(0, 1), (4, 1), (4, 2), (0, 2)]), polygon([(0, 0), (4, 0), (4, 1), (0, 1)])], names)
+    before = layer("Polygon", [polygon([(0, 1), (4, 1), (4, 2), (0, 2)]),
+                               polygon([(0, 0), (4, 0), (4, 1), (0, 1)])], names)
     after = layer("Polygon", [polygon([(0, 0), (4, 0), (4, 1), (2, 1.4), (0, 1)]),
                               polygon([(0, 1), (2, 1.4), (4, 1), (4, 2), (0, 2)])], names[::-1])
     border = layer("LineString", ["LINESTRING(0 1,4 1)"])

@@ -1,13 +1,13 @@
 """Blender add-on: meshes follow a cage, one-to-one.
 
-Select meshes, and last the cage, which is a mesh with a closed surface around them. The cage's rest is its mesh (the shape key
-Basis, if there are shape keys). Its pose is what its shape keys and modifiers make of it.
+Select meshes, and last the cage, which is a mesh with a closed surface around them. The cage's rest is its mesh (the
+shape key Basis, if there are shape keys). Its pose is what its shape keys and modifiers make of it.
 
-Object > Deform by Cage moves the meshes once, into the shape key "Cage". Object > Bind to Cage binds them to the volume of the
-cage: they follow in every frame, also when it is rendered. The cage of a bound mesh is in its object properties.
+Object > Deform by Cage moves the meshes once, into the shape key "Cage". Object > Bind to Cage binds them to the volume
+of the cage. They follow in every frame, also when it is rendered. The object properties of a mesh show its cage.
 
-Any closed surface will do that does not meet itself, however near it comes to the meshes. Only what lies inside moves. The
-map is certified one-to-one, so nothing inside turns inside out. If that cannot be proved, a message says so.
+Any closed surface will do that does not meet itself, however near it comes to the meshes. Only what lies inside moves.
+The map is certified one-to-one, so nothing inside turns inside out. If that cannot be proved, a message says so.
 """
 
 import sys
@@ -93,7 +93,7 @@ def deform(thing, meshes, depsgraph):
 
 @persistent
 def follow(scene, depsgraph):
-    """Moves what is bound, after the frame has changed. A cage that has no map in this frame leaves its meshes as they are."""
+    """Moves what is bound, after the frame has changed. If a cage has no map in this frame, its meshes stay."""
     followers = {}
     for mesh in scene.objects:
         if mesh.type == "MESH" and mesh.libicc_cage is not None:

@@ -7,8 +7,8 @@ import numpy as np
 class Cage:
     """A closed surface whose inside is filled with tetrahedra. Whatever lies inside is bound to it.
 
-    A surface that is open or meets itself is an error that names the place. So is a surface, which is rare, that cannot be
-    filled with tetrahedra in doubles.
+    A surface that is open or meets itself is an error that names the place. So is the rare surface that cannot be
+    filled in doubles.
     """
 
     def __init__(self, vertices, triangles):

@@ -1,6 +1,8 @@
 """Layers and rasters of QGIS that a map carries along."""
 
+import libicc
 import numpy as np
+from libicc.raster import Grid, Sampling, Window, pull
 from osgeo import gdal
 from qgis.core import (
     QgsFeature,
@@ -13,9 +15,6 @@ from qgis.core import (
     QgsRasterFileWriter,
 )
 
-import libicc
-from libicc.raster import Grid, Sampling, Window, pull
-
 RESAMPLING = ["nearest", "linear", "cubic"]
 PIXELS_AT_A_TIME = 1 << 20
 SIDE_SAMPLES = 500
@@ -23,8 +22,8 @@ SIDE_SAMPLES = 500
 
 
 def edited(geometry, edit):
-    """A geometry with straight sides, whose points and lines are replaced by what `edit` makes of their coordinates (x, y,
-    z, m), which are NaN where there are none."""
+    """A geometry with straight sides, in which `edit` has replaced the coordinates of each point, line and ring. Its
+    argument and result have the shape (n, 4), for x, y, z and m. What a geometry lacks is NaN."""
     if isinstance(geometry, QgsGeometryCollection):
         result = geometry.createEmptyWithSameType()
         for part in range(geometry.numGeometries()):
@@ -62,8 +61,8 @@ def carry_layer(mapping, layer, sink, tolerance, feedback):
             result.setGeometry(QgsGeometry(shape))
         sink.addFeature(result)
     if lost:
-        feedback.pushWarning(f"{len(lost)} of {len(features)} features are left out, because they lie at least partly outside "
-                             f"the outline; clip them first to keep their inner parts. Their ids: {lost[:20]}")
+        feedback.pushWarning(f"{len(lost)} of {len(features)} features are left out, because they lie at least partly "
+                             f"outside the outline; clip them first to keep their inner parts. Their ids: {lost[:20]}")
 
 
 class Raster:
@@ -129,7 +128,8 @@ def carry_raster(mapping, layer, path, crs, pixel, resampling, feedback):
     driver = gdal.GetDriverByName(QgsRasterFileWriter.driverForExtension(path.rpartition(".")[2]) or "GTiff")
     result = driver.Create(path, out.width, out.height, raster.n_bands, raster.bands[0].DataType)
     if result is None:
-        raise QgsProcessingException(f"{path}: cannot be written ({gdal.GetLastErrorMsg()})")
+        raise QgsProcessingException(f"{path}: cannot be written ({gdal.GetLastErrorMsg()}). Take a name that ends with "
+                                     ".tif")
     a, b, c, d, e, f = out.transform
     result.SetGeoTransform((c, a, b, f, d, e))
     result.SetProjection(crs.toWkt())

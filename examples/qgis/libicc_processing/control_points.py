@@ -4,7 +4,7 @@ import csv
 from typing import NamedTuple
 
 import numpy as np
-from qgis.core import QgsCoordinateReferenceSystem, QgsProcessingException
+from qgis.core import NULL, QgsCoordinateReferenceSystem, QgsProcessingException
 
 HEADING = ["mapX", "mapY", "sourceX", "sourceY", "enable", "dX", "dY", "residual", "left_out"]
 
@@ -18,8 +18,8 @@ class ControlPoints(NamedTuple):
 
 
 def read_file(path):
-    """The enabled points of a .points file, named by their lines. The source is in the coordinates in which QGIS shows the
-    raster: rows of a scan that is not georeferenced count down from 0, so they are negative."""
+    """The enabled points of a .points file, named by their lines. The source is in the coordinates in which QGIS shows
+    the raster. Rows of a scan that is not georeferenced count down from 0, so they are negative."""
     names, numbers, crs = [], [], QgsCoordinateReferenceSystem()
     with open(path, encoding="utf-8-sig") as file:
         for line, text in enumerate(file, 1):
@@ -33,8 +33,8 @@ def read_file(path):
             except ValueError:
                 point = []
             if len(point) < 4:
-                raise QgsProcessingException(f"{path}, line {line}: a row begins with mapX, mapY, sourceX, sourceY, enable, "
-                                             "with commas between. Save the file in QGIS's georeferencer")
+                raise QgsProcessingException(f"{path}, line {line}: a row begins with mapX, mapY, sourceX, sourceY, "
+                                             "enable, with commas between. Save the file in QGIS's Georeferencer")
             if point[4:] != [0]:
                 names.append(f"line {line}")
                 numbers.append(point[:4])
@@ -55,11 +55,13 @@ def join(source, target, field, feedback):
 
 def _by_name(layer, field, side):
     if field not in layer.fields().names():
-        raise QgsProcessingException(f"The layer of {side} points has no field '{field}'. Both layers need this field, with "
-                                     "the same value for the same place")
+        raise QgsProcessingException(f"The layer of {side} points has no field '{field}'. Both layers need this field, "
+                                     "with the same value for the same place")
     result = {}
     for feature in layer.getFeatures():
         name, points = feature[field], list(feature.geometry().vertices())
+        if name == NULL:
+            continue
         if len(points) != 1:
             raise QgsProcessingException(f"The {side} point '{name}' has {len(points)} places instead of one")
         if name in result:
@@ -69,8 +71,8 @@ def _by_name(layer, field, side):
 
 
 def write_file(path, points, residuals, left_out, crs):
-    """A .points file with residuals, in units of the map. Its last column is for people: how far off the other points alone
-    would put this one."""
+    """A .points file with residuals, in units of the map. Its last column is for people. It says how far off the other
+    points alone would put this one."""
     with open(path, "w", newline="", encoding="utf-8") as file:
         file.write(f"#CRS: {crs.toWkt()}\n" if crs.isValid() else "")
         writer = csv.writer(file, lineterminator="\n")
