@@ -13,10 +13,31 @@ static const char *turn_of(const icc_domain *domain)
     return domain->orientation > 0 ? "oriented outward" : "oriented inward";
 }
 
-/* Returns the number of outer rings and regions. */
-static size_t count_parts(const iccp_features *features)
+/* Reports the first feature of the longer list that is not like the one in its place in the other
+ * list. */
+static icc_status fail_count(int32_t dim, const iccp_features *source, const iccp_features *target,
+                             icc_error *err)
 {
-    return features == NULL ? 1 : (features->n_outer > 0 ? 1 : 0) + features->n_regions;
+    const size_t n = source != NULL ? source->n : 0, m = target != NULL ? target->n : 0;
+    const iccp_features *more = n > m ? source : target;
+    size_t i = 0;
+    for (; i < n && i < m; ++i) {
+        const iccp_feature *a = &source->item[i], *b = &target->item[i];
+        if (a->kind != b->kind || a->n != b->n || a->n_facets != b->n_facets)
+            break;
+    }
+    const icc_status status =
+        iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
+                     "feature %zu (%s) has no partner in the %s, which has %zu features instead "
+                     "of %zu: list the features of both in the same order",
+                     i, iccp_feature_name(dim, more->item[i].kind), n > m ? "target" : "source",
+                     n > m ? m : n, n > m ? n : m);
+    return iccp_fail_side(err, status, n > m ? 1 : 2);
+}
+
+static bool has_outer(const iccp_features *features)
+{
+    return features == NULL || features->n_outer > 0;
 }
 
 /* Checks that feature i of both domains has one kind and the same number of vertices, and that
@@ -25,14 +46,13 @@ static icc_status check_features(int32_t dim, const iccp_features *source,
                                  const iccp_features *target, icc_error *err)
 {
     const size_t n = source != NULL ? source->n : 0, m = target != NULL ? target->n : 0;
-    const size_t n_parts = count_parts(source), m_parts = count_parts(target);
-    if (n_parts != m_parts)
+    if (has_outer(source) != has_outer(target))
         return iccp_fail(err, ICC_ERR_BOUNDARY,
-                         "the source has %zu parts (outer rings and regions), the target %zu",
-                         n_parts, m_parts);
+                         "the source has %s, the target %s: both need the same parts",
+                         has_outer(source) ? "an outer ring" : "only regions",
+                         has_outer(target) ? "an outer ring" : "only regions");
     if (n != m)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu features, the target %zu", n,
-                         m);
+        return fail_count(dim, source, target, err);
     for (size_t i = 0; i < n; ++i) {
         const iccp_feature *a = &source->item[i], *b = &target->item[i];
         if (a->kind != b->kind || a->n != b->n)

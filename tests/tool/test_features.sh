@@ -52,7 +52,7 @@ refuses 'target: line 3 has 3 vertices, but in the source 2' "$source" "$target"
     "$(feature source LineString '[[6,2],[8,2]]' 3)" "$(feature target LineString "$line" 3)"
 refuses 'source: two features have the number 3' "$source" "$target" "$point" "$(feature source LineString "$line" 3)"
 refuses 'target: two features have the number 3' "$source" "$target" "$point" "$partner" "$partner"
-refuses 'target: 0 holes, but the source has 1' "$source" "$(feature target Polygon "[$square]")"
+refuses 'target: 0 holes, but the source has 1: hole 1 of the source has no partner' "$source" "$(feature target Polygon "[$square]")"
 refuses 'target: hole 1 has 3 vertices, but in the source 4' "$source" \
     "$(feature target Polygon "[$square, [[2,2],[4,2],[4,4]]]")"
 refuses 'target: 3 vertices, but the source bad has 4' "$source" "$(feature target Polygon "[[[0,0],[10,0],[10,10]], $hole]")"

@@ -18,7 +18,10 @@ box() {
 
 run 0 check -s solid.obj --json=report.json
 tr -d ' \n' <report.json >line
-holds line '"inside":{"holes":1,"regions":1,"lines":1,"points":0'
+holds line '"vertices":8,"inside":{"holes":1,"regions":1,"lines":1,"points":0,"vertices":18,"facets":24,'
+holds line '"facets":12,'
+run 0 check -s solid.obj
+holds out '8 vertices, 12 faces, facing outward, volume 999, with 1 void, 1 surface and 1 line inside: 18 vertices, 24 faces'
 
 # The same solid from several files.
 box "" 0 10 0 >outer.obj
@@ -44,6 +47,9 @@ holds err tip
 { box outer 0 10 0; box void.2 1 1 8; } >other.obj
 run 1 map -s solid.obj -t other.obj -p points.csv
 says "'void.1' of the source has no partner in the target"
+{ cat solid.obj; box void.2 6 1 26; } >more.obj
+run 1 map -s solid.obj -t more.obj -p points.csv
+says "target: 'void.2' has no partner in the source"
 { box outer 0 10 0; box void.1 1 1 8 | sed 's/^f 9 11 12$/f 11 12 9/'; box surface.1 3 2 16; printf 'o nerve\nv 7 7 7\nv 8 8 8\nl 25 26\n'; } >faces.obj
 run 1 map -s solid.obj -t faces.obj -p points.csv
 says "'void.1' has other faces than in the source"

@@ -335,8 +335,9 @@ bool features_correspond(const cage *source, const cage *target, problem *wrong)
 {
     size_t n = cage_count(source, ICC_FEATURE_HOLE), m = cage_count(target, ICC_FEATURE_HOLE);
     if (n != m && source->n > 0)
-        return spoilt(wrong, 0, "%zu hole%s, but the source has %zu; they correspond one by one", m,
-                      m == 1 ? "" : "s", n);
+        return spoilt(wrong, 0,
+                      "%zu hole%s, but the source has %zu: hole %zu of the %s has no partner", m,
+                      m == 1 ? "" : "s", n, 1 + (n < m ? n : m), n > m ? "source" : "target");
     return pair_all(source->n_features, source->features, target->n_features, target->features,
                     wrong) &&
            pair_all(source->n_ties, source->ties, target->n_ties, target->ties, wrong);

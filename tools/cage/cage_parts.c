@@ -321,7 +321,9 @@ bool cage_pair_parts(const cage *source, cage *target, problem *wrong)
                           "same order",
                           moved.label != NULL ? moved.label : "a surface");
     }
-    for (size_t k = source->n_features; k < target->n_features; k++)
-        target->features[k].number = (int64_t)k + 1;
-    return true;
+    if (source->n_features == target->n_features)
+        return true;
+    const cage_feature *lone = &target->features[source->n_features];
+    return spoilt(wrong, lone->line, "'%s' has no partner in the source",
+                  lone->label != NULL ? lone->label : "a line");
 }

@@ -249,7 +249,17 @@ static size_t n_vertices(const job *j)
     return strcmp(j->args->command, "match") == 0 ? j->matched.n_vertices : j->cages[0].n;
 }
 
-/* Writes what the source has inside, and how that meets. */
+inside_counts inside_count(const cage *c, const icc_domain_info *info)
+{
+    const size_t n_outer = c->n_facets > 0 || c->dim != 2 ? c->n_facets : c->n;
+    inside_counts own = {0, 0};
+    if (c->n_features > 0 && info->n_vertices >= c->n && info->n_facets >= n_outer)
+        own = (inside_counts){info->n_vertices - c->n, info->n_facets - n_outer};
+    return own;
+}
+
+/* Writes what the source has inside, and how that meets. The counts of the cage itself leave it
+ * out. */
 static void report_inside(json *out, const job *j)
 {
     const cage *c = &j->cages[0];
@@ -260,6 +270,9 @@ static void report_inside(json *out, const job *j)
     json_count(out, "lines", cage_count(c, ICC_FEATURE_LINE));
     json_count(out, "points", cage_count(c, ICC_FEATURE_POINT));
     if (j->domains[0] != NULL && icc_domain_get_info(j->domains[0], &info) == ICC_OK) {
+        const inside_counts own = inside_count(c, &info);
+        json_count(out, "vertices", own.n_vertices);
+        json_count(out, "facets", own.n_facets);
         json_count(out, "junctions", info.n_junctions);
         json_count(out, "pieces", info.n_pieces);
         json_count(out, "faces", info.n_faces);

@@ -139,6 +139,15 @@ typedef struct report {
     json json;
 } report;
 
+/* Vertices and facets of all that lies inside a cage. Those of its own boundary are not among them,
+ * nor in the counts `vertices` and `facets` of a report. */
+typedef struct inside_counts {
+    size_t n_vertices, n_facets;
+} inside_counts;
+
+/* `info` is that of the cage's domain. */
+inside_counts inside_count(const cage *c, const icc_domain_info *info);
+
 /* Begins a report with the members that every job has. False: a message is on stderr. */
 bool report_open(report *r, const job *j);
 bool report_close(report *r);

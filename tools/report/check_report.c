@@ -69,6 +69,21 @@ static void print_plane(const cage *c, const icc_domain_info *info, size_t n_add
     putchar('\n');
 }
 
+/* Counts what lies inside apart from the outer surface, as the report does. */
+static void print_solid(const cage *c, const icc_domain_info *info)
+{
+    const inside_counts own = inside_count(c, info);
+    char inside[120];
+    printf(
+        "a closed surface that does not meet itself, %zu vertices, %zu faces, %s, volume %.12g%s",
+        info->n_vertices - own.n_vertices, info->n_facets - own.n_facets,
+        info->orientation > 0 ? "facing outward" : "facing inward", info->measure,
+        cage_inside_text(inside, c));
+    if (own.n_vertices > 0)
+        printf(": %zu vertices, %zu faces", own.n_vertices, own.n_facets);
+    putchar('\n');
+}
+
 static void print_domain(const cage *c, const icc_domain_info *info, size_t n_added)
 {
     if (c->cells != NULL)
@@ -76,10 +91,7 @@ static void print_domain(const cage *c, const icc_domain_info *info, size_t n_ad
     else if (info->dim == 2)
         print_plane(c, info, n_added);
     else if (info->dim == 3)
-        printf("a closed surface that does not meet itself, %zu vertices, %zu faces, %s, volume "
-               "%.12g\n",
-               info->n_vertices, info->n_facets,
-               info->orientation > 0 ? "facing outward" : "facing inward", info->measure);
+        print_solid(c, info);
     else
         printf("a closed boundary, %zu vertices, %zu facets, measure %.12g%s\n", info->n_vertices,
                info->n_facets, info->measure,

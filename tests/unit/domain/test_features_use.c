@@ -411,7 +411,12 @@ START_TEST(correspondence)
                             PLATE.chains[2],
                             PLATE.chains[3],
                             PLATE.chains[4]}};
-    check_unlike(&split, -1, "the source has 4 features, the target 5");
+    check_unlike(&split, 0,
+                 "target: feature 0 (a point) has no partner in the source, which has 4 features "
+                 "instead of 5");
+    ck_assert_int_eq(map_between(&split, &PLATE, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(err.side, 1);
+    ck_assert_ptr_nonnull(strstr(err.message, "source: feature 0 (a point) has no partner in the"));
     for (int f = 1; f <= PLATE.n; ++f)
         for (int g = f; g <= PLATE.n; ++g) {
             p = PLATE;
