@@ -23,6 +23,8 @@ BESIDE, ABOVE = HERE / "c", HERE.parent.parent  # an sdist has the C sources in 
 SOURCES = BESIDE if BESIDE.exists() else ABOVE
 PARTS = ("CMakeLists.txt", "LICENSE", "cmake", "include", "lib")
 NAME = {"win32": "libicc.dll", "darwin": "libicc.0.dylib"}.get(sys.platform, "libicc.so.0")
+PAGE = ("tools/plot/page/page.html", "tools/plot/page/page.css", "tools/plot/page/page.js", "examples/studio/src/gl.js",
+        "examples/studio/src/gl3.js", "examples/studio/src/solid.js")
 GIVEN = os.environ.get("LIBICC_LIBRARY", "")
 MACHINES = {62: "x86_64", 183: "aarch64"}  # as the header of a library (ELF) names them
 
@@ -42,9 +44,14 @@ def compiled(folder: pathlib.Path) -> pathlib.Path:
 class BuildWithLibrary(build_py):
     def run(self) -> None:
         super().run()
+        folder = HERE if self.editable_mode else pathlib.Path(self.build_lib)
+        viewer = folder / "libicc" / "viewer"
+        if not self.editable_mode:
+            viewer.mkdir(exist_ok=True)
+            for part in PAGE:
+                shutil.copy(SOURCES / part, viewer)
         if GIVEN != "system":
             library = pathlib.Path(GIVEN) if GIVEN else compiled(pathlib.Path(self.get_finalized_command("build").build_temp))
-            folder = HERE if self.editable_mode else pathlib.Path(self.build_lib)
             shutil.copy(library, folder / "libicc" / NAME)
 
 
@@ -75,9 +82,9 @@ class PlatformWheel(bdist_wheel):
 class SourcesOfBoth(sdist):
     def make_release_tree(self, base_dir, files) -> None:
         super().make_release_tree(base_dir, files)
-        for part in PARTS:
+        for part in PARTS + PAGE:
             source, target = SOURCES / part, pathlib.Path(base_dir, BESIDE.name, part)
-            target.parent.mkdir(exist_ok=True)
+            target.parent.mkdir(parents=True, exist_ok=True)
             (shutil.copytree if source.is_dir() else shutil.copy)(source, target)
 
 

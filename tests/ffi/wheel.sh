@@ -21,7 +21,7 @@ fail() {
 rm -rf "$work"
 source=$work/source/bindings/python
 mkdir -p "$source/libicc/front" "$work/dist" "$work/elsewhere"
-ln -s "$top/CMakeLists.txt" "$top/LICENSE" "$top/cmake" "$top/include" "$top/lib" "$work/source"
+ln -s "$top/CMakeLists.txt" "$top/LICENSE" "$top/cmake" "$top/include" "$top/lib" "$top/tools" "$top/examples" "$work/source"
 cp -rL "$package"/*.* "$package/LICENSE" "$package/tests" "$source"
 cp "$package"/libicc/*.py "$package/libicc/py.typed" "$source/libicc"
 cp "$package"/libicc/front/*.py "$source/libicc/front"
@@ -37,7 +37,8 @@ wheel() {
     wheel=$(echo "$folder"/*.whl)
     {
         (cd "$package" && ls libicc/*.py libicc/front/*.py libicc/py.typed)
-        printf '%s\n' "$@"
+        printf '%s\n' "$@" libicc/viewer/gl.js libicc/viewer/gl3.js libicc/viewer/page.css libicc/viewer/page.html \
+            libicc/viewer/page.js libicc/viewer/solid.js
         for name in LICENSE METADATA RECORD WHEEL top_level.txt; do
             echo "libicc-$version.dist-info/$name"
         done
@@ -64,6 +65,7 @@ assert libicc.__version__ == importlib.metadata.version("libicc") == "$version",
 square = [[0, 0], [1, 0], [1, 1], [0, 1]]
 image = libicc.Map(square, [[0, 0], [2, 0], [2, 2], [0, 2]])([[0.5, 0.25]])
 assert abs(image - [1, 0.5]).max() < 1e-12, image
+assert "</script>" in libicc.Map(square, square).to_html()
 EOF
 }
 

@@ -409,6 +409,23 @@ class Map(Transform, Saved):
 
         return plot_map(self, lines, axes, stretch, style)
 
+    def to_html(self, *, source: str = "source", target: str = "target", y_down: bool = False) -> str:
+        """A page for the browser, as ``libicc plot OUT.html`` writes it: both shapes, a slider from one to the other,
+        stretch as colours, and in space a cut and the regions inside. For mesh maps in the plane and in space.
+
+        >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+        >>> page = libicc.Map(square, [[0, 0], [2, 0], [2, 1], [0, 1]]).to_html(target="twice as wide")
+        >>> page[:15], "twice as wide" in page
+        ('<!doctype html>', True)
+
+        Args:
+            source, target: what the page calls the shapes
+            y_down: draw y downwards, as in pictures
+        """
+        from ._viewer import page_of
+
+        return page_of(self, (source, target), y_down)
+
     def _repr_html_(self) -> Optional[str]:
         from ._show import show_map
 

@@ -17,6 +17,9 @@ _SIDE = 280.0
 _MOST_FACES = 5000
 """A surface of more facets is told in words only, because notebooks keep every picture."""
 
+_MOST_SIMPLICES = 50000
+"""A larger map is drawn from outside only, because notebooks keep every page."""
+
 _OFF = 0.1
 """How far lines may be off in pixels, so that points on straight parts are left out."""
 
@@ -177,11 +180,20 @@ def draw_map(mapping: Map) -> Optional[str]:
 
 
 def show_map(mapping: Map) -> str:
-    """The picture, and the certificate in words."""
+    """The picture, and the certificate in words. In space the picture can be turned and cut, if the files of that page are
+    installed."""
     info = mapping.info
     words = ("Certified: the map is one-to-one." if info.certified else "Not certified: the map may fold.")
     size = f" {info.n_simplices:,} simplices, energy {info.energy:.4g}." if info.kind == "mesh" else ""
-    return f"<figure>{draw_map(mapping) or ''}<figcaption>{words}{size}</figcaption></figure>"
+    return f"<figure>{_turning(mapping) or draw_map(mapping) or ''}<figcaption>{words}{size}</figcaption></figure>"
+
+
+def _turning(mapping: Map) -> Optional[str]:
+    from . import _viewer
+
+    info = mapping.info
+    fits = info.dim == 3 and info.kind == "mesh" and info.n_simplices <= _MOST_SIMPLICES
+    return _viewer.frame_of(mapping) if fits and _viewer.template() is not None else None
 
 
 def draw_domain(domain: Domain) -> Optional[str]:

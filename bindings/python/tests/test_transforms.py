@@ -1,6 +1,8 @@
 """Maps as people's other programs use them: x and y, geometries, GeoJSON, inverses, chains, pictures and bars."""
 
+import base64
 import io
+import json
 import os
 import pickle
 import subprocess
@@ -195,6 +197,18 @@ def test_pictures_in_notebooks(slope):
     assert cube._repr_svg_().count("<polygon") == 24 and libicc.Domain(CUBE, QUADS)._repr_svg_().count("<polygon") == 12
     domain = libicc.Domain(SQUARE, holes=[SQUARE * 0.5 + 2], points=[[1, 1]], lines=[[[8, 8], [9, 9]]])
     assert domain._repr_svg_().count("<circle") == 1 and domain._repr_svg_().count("<path") == 2
+
+
+def test_page():
+    inner = (CUBE * 0.2 + 0.3, QUADS)
+    solid = libicc.Map(*(libicc.Domain(k * CUBE, QUADS, surfaces=[(k * inner[0], QUADS)]) for k in (1, 2)))
+    page = solid.to_html(source="a<b>")
+    data = json.loads(page.partition('type="application/json">')[2].partition("</script>")[0])
+    assert data["source"] == "a<b>" and data["certified"] and [part["name"] for part in data["parts"]] == ["region 1"]
+    assert len(base64.b64decode(data["parts"][0]["facets"])) == 12 * 3 * 4
+    assert "<iframe srcdoc=" in solid._repr_html_() and "Certified" in solid._repr_html_()
+    with pytest.raises(ValueError, match="this map has none"):
+        libicc.Map(SQUARE, SLOPE, "curves").to_html()
 
 
 def test_plots(slope, neighbour):
