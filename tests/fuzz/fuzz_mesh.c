@@ -7,6 +7,7 @@
 #include "base/foreign.h"
 #include "fuzz.h"
 #include "mesh/mesh_carry.h"
+#include "mesh/mesh_vectors.h"
 #include "mesh/tally.h"
 
 #include <math.h>
@@ -171,6 +172,10 @@ static void require_carried(mesh_file *m, problem *wrong)
         require(known || wrong->text[0] != '\0');
         bool good = mesh_carry(m, images, &mover, &what, wrong);
         require(known || !good);
+        /* Vectors may be spoilt in a file whose mesh is sound. */
+        if (good && !mesh_rotate_vectors(m, &mover, &what.rotated, wrong))
+            require(wrong->text[0] == '\0' || strpbrk(wrong->text, "\r\n") == NULL);
+        require(what.rotated.n_stay <= what.rotated.n_vectors);
         if (good) {
             mesh_file back;
             require(what.n_stay <= what.n_vectors && what.shared >= 0 && what.shared <= 180);

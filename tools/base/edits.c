@@ -90,6 +90,27 @@ size_t edits_copy(edits *e, const char *text, size_t n, char *out)
     return write_to((sink){.memory = out}, e, text, n);
 }
 
+char *edits_apply(edits *e, const char *text, size_t *n, size_t *places, size_t n_places)
+{
+    size_t n_new = edits_write(e, text, *n, NULL), at = 0, k = 0;
+    char *out = need(n_new + 1, 1), *to = out;
+    for (size_t i = 0; i <= e->n; i++) {
+        const edit last = {*n, *n, 0, 0}, *one = i < e->n ? &e->list[i] : &last;
+        if (one->begin < at)
+            continue;
+        for (; k < n_places && places[k] <= one->begin; k++)
+            places[k] = (size_t)(to - out) + (places[k] - at);
+        memcpy(to, text + at, one->begin - at);
+        to += one->begin - at;
+        if (one->to > one->from)
+            memcpy(to, e->bytes + one->from, one->to - one->from);
+        to += one->to - one->from;
+        at = one->end;
+    }
+    *n = n_new;
+    return out;
+}
+
 void edits_free(edits *e)
 {
     free(e->list);

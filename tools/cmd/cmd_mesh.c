@@ -89,12 +89,26 @@ static void print_tally(const job *j, const mesh_file *m, const tally *t,
     }
 }
 
+static void print_rotated(const job *j, const mesh_rotated *r)
+{
+    char text[128];
+    if (!j->args->rotates_vectors)
+        return;
+    snprintf(text, sizeof text, "%zu vectors in %zu arrays: %zu rotated, %zu not rotated",
+             r->n_vectors, r->n_arrays, r->n_vectors - r->n_stay, r->n_stay);
+    if (strcmp(j->args->operands[1], "-") == 0)
+        note("%s", text);
+    else
+        printf("%s\n", text);
+}
+
 /* Reports one object with --json, otherwise lines of text. */
 static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed,
-                        const icc_certificate *certificate)
+                        const icc_certificate *certificate, const mesh_rotated *rotated)
 {
     if (!j->args->json) {
         print_tally(j, m, t, certificate);
+        print_rotated(j, rotated);
         return DONE;
     }
     report r;
@@ -105,6 +119,10 @@ static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t
     if (m->dim == 3)
         json_count(&r.json, "faces", m->n_faces);
     tally_report(t, m, &r.json);
+    if (j->args->rotates_vectors) {
+        json_count(&r.json, "vectors", rotated->n_vectors);
+        json_count(&r.json, "vectors_not_rotated", rotated->n_stay);
+    }
     if (certificate->size > 0) {
         json_flag(&r.json, "boundary_simple", certificate->boundary_simple != 0);
         json_flag(&r.json, "certified", certificate->certified != 0);
@@ -202,7 +220,7 @@ static int finish(job *j, const mesh_file *m, const double *images, const icc_st
     if (result == DONE && writes && !refused)
         result = triangulation_write(j);
     if (result == DONE && (writes || j->args->json))
-        result = report_tally(j, m, t, n_failed, certificate);
+        result = report_tally(j, m, t, n_failed, certificate, &attached->rotated);
     return result != DONE ? result
            : !writes
                ? n_failed > 0 ? tell_outside(j, m, status, n_failed) : attached_beyond(j, attached)

@@ -59,7 +59,7 @@ typedef struct args {
     /* how fits are made; 0 is the library's choice */
     double box[ICC_MAX_DIM], resolution, margin, frame, smoothing, reach, stiffness;
     size_t n_box; /* numbers of the box; 0: not given */
-    bool exact, smooths, slides, frees;
+    bool exact, smooths, slides, frees, rotates_vectors;
     bool exact_lines; /* of a layer */
     bool leaves_out;  /* regions at borders that one layer lacks */
     /* how weights are made */

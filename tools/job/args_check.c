@@ -183,20 +183,21 @@ static int check_kernel(const args *a, const command *c)
 /* Filling takes a surface and no map. */
 static int check_fill(const args *a, const command *c)
 {
-    const char *of_maps = a->source != NULL   ? "source"
-                          : a->target != NULL ? "target"
-                          : a->mesh != NULL   ? "mesh"
-                          : a->target_mesh    ? "target-mesh"
-                          : a->inverse        ? "inverse"
-                          : a->repair_mesh    ? "untangle"
-                          : a->mesher != 0    ? "mesher"
-                          : a->method != 0    ? "method"
-                          : a->map != 0       ? "map"
-                          : a->outside != 0   ? "outside"
-                          : a->match != NULL  ? "match"
-                          : a->json           ? "json"
-                          : a->triangulation  ? "triangulation"
-                                              : NULL;
+    const char *of_maps = a->source != NULL    ? "source"
+                          : a->target != NULL  ? "target"
+                          : a->mesh != NULL    ? "mesh"
+                          : a->target_mesh     ? "target-mesh"
+                          : a->inverse         ? "inverse"
+                          : a->repair_mesh     ? "untangle"
+                          : a->mesher != 0     ? "mesher"
+                          : a->method != 0     ? "method"
+                          : a->map != 0        ? "map"
+                          : a->outside != 0    ? "outside"
+                          : a->match != NULL   ? "match"
+                          : a->json            ? "json"
+                          : a->rotates_vectors ? "rotate-vectors"
+                          : a->triangulation   ? "triangulation"
+                                               : NULL;
     if (of_maps != NULL)
         return misused(c->name, "--%s does not go with --fill", of_maps);
     if (check_solid(a, c) != DONE)

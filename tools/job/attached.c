@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 #include "mesh/affine_map.h"
+#include "mesh/mesh_vectors.h"
 
 #include <float.h>
 #include <math.h>
@@ -61,6 +62,8 @@ static void step(const search *s, size_t round, const double *point, const doubl
     double d[3] = {0, 0, 0};
     for (size_t k = 0; k < s->dim; k++)
         d[k] = round < 3 ? direction[k] : s->centre[k] - point[k];
+    if (round < 3 && s->j->cages[s->j->args->inverse].flipped)
+        d[1] = -d[1];
     double length = round == 0 ? 0 : (round == 1 ? -1 : 1) * (double)FLT_EPSILON * s->size;
     if (!affine_set_length(d, length))
         memset(d, 0, sizeof d);
@@ -108,6 +111,18 @@ static icc_status look(search *s, double *derivatives)
     return ran;
 }
 
+/* Turns a derivative between files whose y is reversed, too. */
+static void reverse_y(const job *j, double *derivative)
+{
+    size_t dim = job_dim(j), inverse = j->args->inverse;
+    for (size_t k = 0; k < dim; k++) {
+        if (j->cages[inverse].flipped)
+            derivative[dim * k + 1] = -derivative[dim * k + 1];
+        if (j->cages[!inverse].flipped)
+            derivative[dim + k] = -derivative[dim + k];
+    }
+}
+
 static bool derive_points(void *data, size_t n, const double *points, const double *directions,
                           double *derivatives)
 {
@@ -132,6 +147,8 @@ static bool derive_points(void *data, size_t n, const double *points, const doub
             step(&s, round, points + dim * s.left[i], directions + 3 * s.left[i], s.at + dim * i);
         ran = look(&s, derivatives);
     }
+    for (size_t i = 0; i < n; i++)
+        reverse_y(j, derivatives + dim * dim * i);
     free(s.left);
     free(s.at);
     free(s.sources);
@@ -152,6 +169,9 @@ int attached_carry(job *j, mesh_file *m, const double *images, const icc_status 
         memcpy(places + m->dim * i, (status[i] == ICC_OK ? images : m->points) + m->dim * i,
                m->dim * sizeof *places);
     bool good = mesh_carry(m, places, &mover, out, &wrong);
+    if (good && j->args->rotates_vectors)
+        good = mesh_rotate_vectors(m, &mover, &out->rotated, &wrong);
+    out->other = out->other && out->rotated.n_arrays == 0;
     free(places);
     progress_end(&j->bar);
     return good                    ? DONE
@@ -177,6 +197,9 @@ void attached_tell(const char *file, const mesh_carried *c)
         note("%s: %zu of %zu normals and tangents stay as they are, because the map has no "
              "derivative there",
              file, c->n_stay, c->n_vectors);
+    if (c->rotated.n_stay > 0)
+        note("%s: %zu of %zu vectors stay as they are, because the map has no derivative there",
+             file, c->rotated.n_stay, c->rotated.n_vectors);
     if (c->shared >= 0.05)
         note("%s: normals of several vertices become the mean of their images, off by up to %.1f "
              "degrees; save with a normal for each vertex",

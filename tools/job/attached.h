@@ -5,7 +5,8 @@
 #include "job/job.h"
 #include "mesh/mesh_carry.h"
 
-/* Carries them after the vertices have images. Vertices whose `status` is not ICC_OK stay. */
+/* Carries them after the vertices have images. Vertices whose `status` is not ICC_OK stay. With
+ * --rotate-vectors it also rotates vectors at vertices and in elements (mesh_vectors.h). */
 int attached_carry(job *j, mesh_file *m, const double *images, const icc_status *status,
                    mesh_carried *out);
 

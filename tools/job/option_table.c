@@ -260,6 +260,13 @@ const option options[] = {
      .commands = FOR_MESH,
      .offset = AT(repair_mesh),
      .help = "move inner vertices until no element is inverted, where that is possible"},
+    {.name = "rotate-vectors",
+     .kind = OPTION_FLAG,
+     .commands = FOR_MESH,
+     .offset = AT(rotates_vectors),
+     .help =
+         "rotate the vectors at vertices and in elements with the map (VTK, VTU, Gmsh); they keep "
+         "their length"},
     {.name = "fill",
      .kind = OPTION_FLAG,
      .commands = FOR_MESH,

@@ -5,6 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+/* The square of it is below the rounding of doubles. */
+static const double NEARLY_ORTHOGONAL = 1e-9;
+
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 void affine_identity(double out[12])
@@ -95,6 +98,33 @@ bool affine_set_length(double v[3], double length)
         return false;
     for (int i = 0; i < 3; i++)
         v[i] = v[i] / now * length;
+    return true;
+}
+
+/* Newton's iteration X -> (s X + X^-T / s) / 2, scaled by s while X is far from orthogonal. The error
+ * of each step is about the square of the one before.
+ * Higham: Computing the polar decomposition - with applications, 1986. */
+bool affine_rotation(double out[12], const double a[12])
+{
+    double inverse[12], change = HUGE_VAL;
+    for (int i = 0; i < 12; i++)
+        out[i] = i % 4 < 3 ? a[i] : 0;
+    while (change > NEARLY_ORTHOGONAL) {
+        double size = 0, size_back = 0;
+        if (!affine_invert(inverse, out))
+            return false;
+        for (int i = 0; i < 12; i++) {
+            size += out[i] * out[i];
+            size_back += inverse[i] * inverse[i];
+        }
+        double s = change > 0.5 ? sqrt(sqrt(size_back / size)) : 1;
+        change = 0;
+        for (int i = 0; i < 12; i++) {
+            double old = out[i];
+            out[i] = i % 4 < 3 ? (s * old + inverse[i % 4 * 4 + i / 4] / s) / 2 : 0;
+            change = fmax(change, fabs(out[i] - old));
+        }
+    }
     return true;
 }
 

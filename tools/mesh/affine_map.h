@@ -26,6 +26,10 @@ void affine_turn_back(double out[3], const double a[12], const double v[3]);
  * length. False if there is none. */
 bool affine_turn_normal(double out[3], const double a[12], const double normal[3]);
 
+/* The rotation of a map's polar decomposition, or the reflection of one that reverses: the orthogonal
+ * matrix nearest to A. False if A is singular. */
+bool affine_rotation(double out[12], const double a[12]);
+
 /* Scales a vector to a length. False if it is zero or not finite. */
 bool affine_set_length(double v[3], double length);
 double affine_length(const double v[3]);

@@ -100,6 +100,15 @@ static void turn_all(const mesh_file *m, const double *derivatives, double *imag
         }
 }
 
+void mesh_edit(mesh_file *m, edits *e)
+{
+    char *before = m->own;
+    m->own = edits_apply(e, m->text, &m->n_text, m->spans, 2 * m->n_vertices * m->n_spans);
+    m->text = m->own;
+    m->carried = true;
+    free(before);
+}
+
 /* The text of a normal in the file's form. */
 static size_t print_span(const mesh_file *m, const double *image, size_t k, char out[96])
 {
@@ -120,36 +129,11 @@ static size_t print_span(const mesh_file *m, const double *image, size_t k, char
     return of->width;
 }
 
-typedef struct rewriter {
-    char *text;
-    size_t n, room;
-    size_t *at;        /* the next place of a vertex in the text, in rising order */
-    const size_t *end; /* the end of these places */
-    size_t done;       /* bytes of the old text that have been copied or replaced */
-} rewriter;
-
-static void add(rewriter *w, const char *text, size_t n)
-{
-    w->text = grow(w->text, &w->room, w->n + n + 1, 1);
-    memcpy(w->text + w->n, text, n);
-    w->n += n;
-}
-
-/* Copies the old text up to `end`, and moves the places of vertices with it. */
-static void copy_to(rewriter *w, const char *text, size_t end)
-{
-    for (; w->at < w->end && *w->at <= end; w->at++)
-        *w->at += w->n - w->done;
-    add(w, text + w->done, end - w->done);
-    w->done = end;
-}
-
 /* Writes new normals into the text. Those without an image stay. */
 static void rewrite(mesh_file *m, const double *images)
 {
     const mesh_normals *of = &m->vertex_normals;
-    size_t *places = m->spans, n_places = 2 * m->n_vertices * m->n_spans;
-    rewriter w = {.at = places, .end = places + n_places};
+    edits e = {0};
     for (size_t i = 0; i < of->n * of->n_spans; i++) {
         char out[96];
         const double *image = images + 3 * (i / of->n_spans),
@@ -159,15 +143,11 @@ static void rewrite(mesh_file *m, const double *images)
             continue;
         for (size_t x = 0; x < 3; x++)
             scaled[x] = image[x] * length;
-        copy_to(&w, m->text, of->spans[2 * i]);
-        add(&w, out, print_span(m, scaled, i % of->n_spans, out));
-        w.done = of->spans[2 * i + 1];
+        edits_replace(&e, of->spans[2 * i], of->spans[2 * i + 1]);
+        edits_put(&e, print_span(m, scaled, i % of->n_spans, out), out);
     }
-    copy_to(&w, m->text, m->n_text);
-    w.text[w.n] = '\0';
-    m->text = m->own = w.text;
-    m->n_text = w.n;
-    m->carried = true;
+    mesh_edit(m, &e);
+    edits_free(&e);
 }
 
 static bool carry_normals(mesh_file *m, const mesh_mover *mover, mesh_carried *out)

@@ -3,6 +3,7 @@
 #ifndef MESH_CARRY_H
 #define MESH_CARRY_H
 
+#include "base/edits.h"
 #include "mesh/mesh_file.h"
 
 /* A map as a mesh uses it. A function that returns false has printed a message. */
@@ -17,6 +18,11 @@ typedef struct mesh_mover {
                    double *derivatives);
 } mesh_mover;
 
+/* How many vectors were rotated, and how many stay because the map has no derivative there. */
+typedef struct mesh_rotated {
+    size_t n_arrays, n_vectors, n_stay;
+} mesh_rotated;
+
 /* The result for normals, tangents and morph targets. */
 typedef struct mesh_carried {
     size_t n_vectors, n_stay;   /* normals and tangents; how many of them have no derivative and
@@ -26,6 +32,7 @@ typedef struct mesh_carried {
     size_t n_morphed, n_beyond; /* displaced vertices; how many of them have no image */
     bool other;                 /* there are normals or tangents that cannot be read; they stay */
     bool skins, animations;     /* joints or nodes move; they stay */
+    mesh_rotated rotated;       /* mesh_vectors.h */
 } mesh_carried;
 
 /* Replaces them in the text of m, whose vertices become `images`, rounded. Without a mover it only
@@ -35,6 +42,9 @@ bool mesh_carry(mesh_file *m, const double *images, const mesh_mover *mover, mes
                 problem *wrong);
 
 /* ---- for the formats ---- */
+
+/* Changes the text of the mesh and moves the places of its vertices. */
+void mesh_edit(mesh_file *m, edits *e);
 
 bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
                problem *wrong);

@@ -53,10 +53,15 @@ static const format *find_format(lines *r, size_t n)
     }
 }
 
+const char *lines_format(lines *r, size_t n)
+{
+    return find_format(r, n)->name;
+}
+
 const char *mesh_format(const char *text, size_t n)
 {
     lines r = {.at = text};
-    return find_format(&r, n)->name;
+    return lines_format(&r, n);
 }
 
 bool mesh_told(const char *text, size_t n)

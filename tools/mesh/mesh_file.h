@@ -9,6 +9,7 @@
  * Words of this folder
  * - span: the place of a number, or of a vertex's numbers, in the text of the file.
  * - kind: a type of element by VTK's number (element_kinds.h).
+ * - vectors: fields of three numbers at vertices or in elements (mesh_vectors.h).
  * - carried: normals, tangents and morph targets after they have been mapped (mesh_carry.h).
  * - tally: counts of elements by the sign of their images (tally.h).
  * - plan: tables that prove the sign of a curved element (element_plan.h, element_sign.h).
@@ -79,9 +80,10 @@ typedef struct mesh_file {
     unsigned char order[3];
     size_t types[3][2], n_types; /* type words before the numbers, which set their precision
                                     (VTK, PLY) */
-    bool has_rest;   /* after each span there is a third coordinate as a float, which must become
+    size_t types_end; /* of VTK: where the types of cells end, and data of points and cells begin */
+    bool has_rest;    /* after each span there is a third coordinate as a float, which must become
                         a double */
-    size_t *normals; /* where the normal of each triangle begins and ends, before its corners, or
+    size_t *normals;  /* where the normal of each triangle begins and ends, before its corners, or
                         NULL */
     mesh_normals vertex_normals; /* of OBJ and PLY */
     size_t n_places;

@@ -3,9 +3,11 @@
  * are read. Nodes have tags, which need not be consecutive. Everything else is copied. */
 #include "mesh/element_kinds.h"
 #include "mesh/mesh_lines.h"
+#include "mesh/mesh_vectors.h"
 
 #include "base/allocate.h"
 #include "base/bytes.h"
+#include "base/number.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -59,6 +61,10 @@ typedef struct gmsh {
     bool new; /* version 4.1 */
     tag *tags;
     size_t room;
+    mesh_vector_list *vectors; /* NULL, or vectors are looked for */
+    tag *elements;             /* then: of all elements, sorted when the first vectors come */
+    size_t n_elements, room_elements;
+    bool sorted;
 } gmsh;
 
 /* ------------------------------------------------------------------------- numbers */
@@ -237,6 +243,19 @@ static const gmsh_kind *find_kind(lines *r, uint32_t type)
     return NULL;
 }
 
+/* The tag of the next element. */
+static bool take_element(gmsh *g, size_t size)
+{
+    tag next = {.vertex = (uint32_t)g->r->mesh->n_elements};
+    if (!take_count(g->r, size, 4e9, &next.tag))
+        return false;
+    if (g->vectors == NULL)
+        return true;
+    g->elements = grow(g->elements, &g->room_elements, g->n_elements + 1, sizeof *g->elements);
+    g->elements[g->n_elements++] = next;
+    return true;
+}
+
 static bool read_element(gmsh *g, const gmsh_kind *kind)
 {
     lines *r = g->r;
@@ -263,13 +282,13 @@ static bool read_element(gmsh *g, const gmsh_kind *kind)
 static bool read_block_of_elements(gmsh *g)
 {
     lines *r = g->r;
-    uint32_t dim, type, n, ignored;
+    uint32_t dim, type, n;
     if (!take_count(r, 4, 4, &dim) || !skip_integers(r, 1) || !take_count(r, 4, 4e9, &type) ||
         !take_count(r, 8, 4e9, &n))
         return false;
     const gmsh_kind *kind = find_kind(r, type);
     for (; kind != NULL && n > 0; n--)
-        if (!take_count(r, 8, 4e9, &ignored) || !read_element(g, kind))
+        if (!take_element(g, 8) || !read_element(g, kind))
             return false;
     return kind != NULL;
 }
@@ -281,7 +300,7 @@ static bool read_old_elements(gmsh *g, uint32_t *n)
     lines *r = g->r;
     bool text = r->mesh->form == MESH_TEXT;
     uint32_t type, n_block = 1, n_tags;
-    if ((text && !skip_integers(r, 1)) || !take_count(r, 4, 4e9, &type) ||
+    if ((text && !take_element(g, 4)) || !take_count(r, 4, 4e9, &type) ||
         (!text && !take_count(r, 4, (double)*n + 1, &n_block)) || !take_count(r, 4, 4e9, &n_tags))
         return false;
     if (n_block == 0)
@@ -290,7 +309,7 @@ static bool read_old_elements(gmsh *g, uint32_t *n)
     const gmsh_kind *kind = find_kind(r, type);
     *n -= n_block;
     for (; kind != NULL && n_block > 0; n_block--)
-        if ((!text && !skip_integers(r, 1)) || !skip_integers(r, n_tags) || !read_element(g, kind))
+        if ((!text && !take_element(g, 4)) || !skip_integers(r, n_tags) || !read_element(g, kind))
             return false;
     return kind != NULL;
 }
@@ -372,6 +391,104 @@ static bool pass_end(lines *r, const char *name, size_t n_name)
     return spoilt(r->wrong, r->line, "the section '%s' has no end", quoted(shown, name));
 }
 
+/* ------------------------------------------------------------------------- vectors */
+
+/* The numbers before the data: texts, real and whole numbers, each kind with its number of items. Whole
+ * numbers are a step of time, the components of an item, and the number of items. */
+static bool read_head_of_data(lines *r, uint32_t *n_components, uint32_t *n_items)
+{
+    uint32_t n, value, counts[3] = {0};
+    if (!lines_next_count(r, 4e9, &n))
+        return false;
+    for (; n > 0; n--)
+        if ((r->at = r->end, !lines_word(r)))
+            return false;
+    r->at = r->end;
+    if (!lines_next_count(r, 4e9, &n))
+        return false;
+    for (; n > 0; n--)
+        if ((r->at = r->end, !lines_word(r)))
+            return false;
+    r->at = r->end;
+    if (!lines_next_count(r, 4e9, &n))
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        if (!lines_next_count(r, 4e9, &value))
+            return false;
+        if (i < 3)
+            counts[i] = value;
+    }
+    *n_components = counts[1];
+    *n_items = counts[2];
+    if (r->mesh->form != MESH_TEXT)
+        r->at = r->end + (*r->end == '\n');
+    return true;
+}
+
+/* A number that may be infinite or NaN. */
+static bool take_value(lines *r, double *value)
+{
+    uint64_t bits;
+    char shown[32];
+    if (r->mesh->form != MESH_TEXT) {
+        if (!take_bytes(r, 8, &bits))
+            return false;
+        memcpy(value, &bits, 8);
+        return true;
+    }
+    if (!lines_word(r))
+        return false;
+    const char *word = r->at;
+    number_kind kind = number_read(&r->at, value);
+    if (kind == NUMBER_NOT_FINITE)
+        *value = (double)NAN;
+    return kind != NUMBER_BAD ||
+           spoilt(r->wrong, r->line, "'%s' is not a number", quoted(shown, word));
+}
+
+/* The vector of a node or of an element with this tag. Others are not in the mesh. */
+static bool read_vector(gmsh *g, mesh_vectors *v)
+{
+    lines *r = g->r;
+    tag key = {0};
+    double value[3];
+    if (!take_count(r, 4, 4e9, &key.tag))
+        return false;
+    r->at += r->mesh->form == MESH_TEXT ? strspn(r->at, " \t") : 0;
+    size_t begin = (size_t)(r->at - r->mesh->text),
+           n = v->in_elements ? g->n_elements : r->mesh->n_vertices;
+    if (!take_value(r, &value[0]) || !take_value(r, &value[1]) || !take_value(r, &value[2]))
+        return false;
+    const tag *all = v->in_elements ? g->elements : g->tags;
+    const tag *found = n == 0 ? NULL : bsearch(&key, all, n, sizeof *all, by_tag);
+    if (found != NULL)
+        vectors_add(v, found->vertex, value, begin, (size_t)(r->at - r->mesh->text));
+    return true;
+}
+
+static bool read_vectors(gmsh *g, bool in_elements)
+{
+    lines *r = g->r;
+    uint32_t n_components, n;
+    if (r->mesh->n_vertices == 0 || (in_elements && g->n_elements == 0))
+        return spoilt(r->wrong, r->mesh->form == MESH_TEXT ? r->line : 0,
+                      "vectors come before their nodes or elements");
+    if (!read_head_of_data(r, &n_components, &n))
+        return false;
+    if (n_components != 3)
+        return true;
+    if (in_elements && !g->sorted)
+        qsort(g->elements, g->n_elements, sizeof *g->elements, by_tag);
+    g->sorted = g->sorted || in_elements;
+    mesh_vectors *v = vectors_begin(g->vectors, in_elements);
+    v->width = 8;
+    for (; n > 0; n--)
+        if (!read_vector(g, v))
+            return false;
+    go_on(r);
+    return true;
+}
+
 static bool read_section(gmsh *g)
 {
     lines *r = g->r;
@@ -385,6 +502,10 @@ static bool read_section(gmsh *g)
     if (r->mesh->form != MESH_TEXT && g->new && (nodes || elements))
         r->at = r->end + (*r->end == '\n');
     if ((nodes && !read_nodes(g)) || (elements && !read_elements(g)))
+        return false;
+    bool at_nodes = g->vectors != NULL && lines_take(r, "$NodeData");
+    if ((at_nodes || (g->vectors != NULL && lines_take(r, "$ElementData"))) &&
+        !read_vectors(g, !at_nodes))
         return false;
     if (nodes || elements)
         go_on(r);
@@ -403,12 +524,31 @@ static bool find_section(lines *r)
     }
 }
 
+static bool read_sections(gmsh *g)
+{
+    bool good = read_head(g) && pass_end(g->r, "MeshFormat", strlen("MeshFormat"));
+    while (good && find_section(g->r))
+        good = read_section(g);
+    free(g->tags);
+    free(g->elements);
+    return good;
+}
+
 bool mesh_read_gmsh(lines *r)
 {
     gmsh g = {.r = r};
-    bool good = read_head(&g) && pass_end(r, "MeshFormat", strlen("MeshFormat"));
-    while (good && find_section(r))
-        good = read_section(&g);
-    free(g.tags);
+    return read_sections(&g);
+}
+
+/* Reads the file once more, because the tags have not been kept. */
+bool gmsh_find_vectors(const mesh_file *m, mesh_vector_list *out, problem *wrong)
+{
+    mesh_file again = {
+        .text = m->text, .n_text = m->n_text, .dim = m->dim, .n_spans = 1, .order = {0, 1, 2}};
+    lines r = {.mesh = &again, .at = m->text, .line = 1, .wrong = wrong};
+    gmsh g = {.r = &r, .vectors = out};
+    lines_format(&r, m->n_text);
+    bool good = read_sections(&g);
+    mesh_free(&again);
     return good;
 }

@@ -49,6 +49,9 @@ bool lines_end_face(lines *r);
  * dimension 2 with straight sides is a face, too. False if the kind has another number of nodes. */
 bool lines_element(lines *r, int kind, size_t n, const uint32_t *nodes);
 
+/* The name of the format of a file of n bytes. Moves from its beginning to its first mark. */
+const char *lines_format(lines *r, size_t n);
+
 /* ---- the formats ---- */
 
 bool mesh_read_obj(lines *r);

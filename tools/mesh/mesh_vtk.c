@@ -170,6 +170,7 @@ static bool read_types(lines *r, cells *c)
             return spoilt(r->wrong, r->line, "cell %u has %u corners, but type %u", (unsigned)i,
                           (unsigned)n_corners, (unsigned)type);
     }
+    r->mesh->types_end = (size_t)(r->at - r->mesh->text);
     return true;
 }
 

@@ -3,6 +3,7 @@
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
+#include "mesh/mesh_vectors.h"
 #include "mesh/vtu.h"
 
 #include <math.h>
@@ -155,12 +156,58 @@ bool mesh_read_vtu(lines *r)
     return true;
 }
 
+/* The arrays of three floating-point numbers at points and in cells. */
+static bool is_of_vectors(const vtu_array *a)
+{
+    return (a->section == VTU_POINT_DATA || a->section == VTU_CELL_DATA) && a->n_components == 3 &&
+           a->kind == 'f';
+}
+
+static bool take_vectors(vtu *v, vtu_array *a, size_t first, size_t n, mesh_vector_list *out,
+                         problem *wrong)
+{
+    if (!vtu_read(v, a, 3 * (uint64_t)n, wrong) || !vtu_is_apart(v, a, wrong))
+        return false;
+    mesh_vectors *of = vectors_begin(out, a->section == VTU_CELL_DATA);
+    of->are_normals = a->is_normal;
+    of->array = a;
+    free(a->changed);
+    a->changed = need(a->n, sizeof *a->changed);
+    if (a->n > 0)
+        memcpy(a->changed, a->values, a->n * sizeof *a->values);
+    for (size_t i = 0; i < n; i++)
+        vectors_add(of, (uint32_t)(first + i), a->values + 3 * i, 0, 0);
+    return true;
+}
+
+bool vtu_find_vectors(const mesh_file *m, mesh_vector_list *out, problem *wrong)
+{
+    vtu *v = m->vtu;
+    size_t first_point = 0, first_cell = 0, piece = 0;
+    for (size_t i = 0; i < v->n_arrays; i++) {
+        vtu_array *a = &v->arrays[i];
+        for (; piece < a->piece; piece++) {
+            first_point += v->pieces[piece].n_points;
+            first_cell += v->pieces[piece].n_cells;
+        }
+        const vtu_piece *p = &v->pieces[piece];
+        bool in_cells = a->section == VTU_CELL_DATA;
+        if (is_of_vectors(a) && !take_vectors(v, a, in_cells ? first_cell : first_point,
+                                              in_cells ? p->n_cells : p->n_points, out, wrong))
+            return false;
+    }
+    return true;
+}
+
 void vtu_write(const mesh_file *m, const double *points, FILE *stream)
 {
     const vtu *v = m->vtu;
     edits e = {0};
     size_t first = 0;
-    for (const vtu_array *a = v->arrays; a < v->arrays + v->n_arrays; a++) {
+    for (size_t i = 0; i < v->n_arrays; i++) {
+        const vtu_array *a = &v->arrays[i];
+        if (a->changed != NULL)
+            vtu_put(&e, v, a, a->changed, false);
         if (a->section != VTU_POINTS || a->n == 0)
             continue;
         double *moved = moved_points(m, a, first, points);

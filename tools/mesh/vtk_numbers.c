@@ -44,8 +44,8 @@ void vtk_begin(lines *r)
         r->at = ++r->end;
 }
 
-/* Takes n bytes. The rest of a line follows them. */
-static const char *take_bytes(lines *r, size_t n)
+/* The rest of a line follows them. */
+const char *vtk_bytes(lines *r, size_t n)
 {
     const char *bytes = r->at, *end = r->mesh->text + r->mesh->n_text;
     if ((size_t)(end - bytes) < n) {
@@ -61,7 +61,7 @@ bool vtk_count(lines *r, size_t size, double limit, uint32_t *count)
 {
     if (is_text(r))
         return lines_next_count(r, limit, count);
-    const char *bytes = take_bytes(r, size);
+    const char *bytes = vtk_bytes(r, size);
     if (bytes == NULL)
         return false;
     uint64_t value = big_endian(bytes, size);
@@ -84,7 +84,7 @@ bool vtk_vertex(lines *r, size_t size)
     mesh_file *m = r->mesh;
     if (is_text(r))
         return read_text_vertex(r);
-    const char *bytes = take_bytes(r, 3 * size);
+    const char *bytes = vtk_bytes(r, 3 * size);
     if (bytes == NULL)
         return false;
     mesh_make_room(m);
@@ -116,7 +116,7 @@ static bool skip_array(lines *r)
     vtk_begin(r);
     if ((double)n_components * n_items * (double)size > (double)r->mesh->n_text)
         return spoilt(r->wrong, 0, "the file ends early");
-    if (take_bytes(r, size * n_components * n_items) == NULL)
+    if (vtk_bytes(r, size * n_components * n_items) == NULL)
         return false;
     r->end = r->at + strcspn(r->at, "\n");
     return true;

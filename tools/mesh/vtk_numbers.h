@@ -14,6 +14,9 @@ void vtk_begin(lines *r);
 /* Reads an integer from 0 to below `limit`: the next word, or the next `size` bytes. */
 bool vtk_count(lines *r, size_t size, double limit, uint32_t *count);
 
+/* Takes the next n bytes. NULL: the file ends before. */
+const char *vtk_bytes(lines *r, size_t n);
+
 /* Reads the next vertex, which has three numbers of `size` bytes. In the plane the third is ignored. */
 bool vtk_vertex(lines *r, size_t size);
 

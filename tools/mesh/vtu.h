@@ -35,6 +35,7 @@ typedef struct vtu_array {
     /* After vtu_read(). */
     size_t n;          /* numbers */
     double *values;    /* n of them */
+    double *changed;   /* n of them, to be written, or NULL */
     size_t at, at_end; /* its content in the text, without the blanks around it */
     uint64_t block;    /* if it is compressed: bytes of a block before */
 } vtu_array;

@@ -194,9 +194,11 @@ static growth *find_growth(const edits *e, const vtu *v, size_t *n)
 {
     growth *out = need(e->n, sizeof *out);
     *n = 0;
-    for (const edit *one = e->list; one < e->list + e->n; one++)
+    for (size_t i = 0; i < e->n; i++) {
+        const edit *one = &e->list[i];
         if (one->begin >= v->data)
             out[(*n)++] = (growth){one->begin, one->to - one->from, one->end - one->begin};
+    }
     if (*n > 0)
         qsort(out, *n, sizeof *out, by_place);
     for (size_t i = 1; i < *n; i++) {
@@ -225,7 +227,8 @@ void vtu_put_offsets(edits *e, const vtu *v)
         return;
     size_t n;
     growth *changes = find_growth(e, v, &n);
-    for (const vtu_array *a = v->arrays; a < v->arrays + v->n_arrays; a++) {
+    for (size_t i = 0; i < v->n_arrays; i++) {
+        const vtu_array *a = &v->arrays[i];
         tag t = tag_of(v, a);
         char digits[32];
         const char *end, *value = a->is_appended ? tag_attribute(&t, "offset", 6, &end) : NULL;

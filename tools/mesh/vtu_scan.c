@@ -219,6 +219,8 @@ void vtu_free(vtu *v)
 {
     for (size_t i = 0; i < v->n_arrays; i++)
         free(v->arrays[i].values);
+    for (size_t i = 0; i < v->n_arrays; i++)
+        free(v->arrays[i].changed);
     free(v->arrays);
     free(v->pieces);
     *v = (vtu){0};
@@ -236,7 +238,8 @@ const char *vtu_name(const vtu *v, const vtu_array *a, char out[32])
 
 vtu_array *vtu_find(vtu *v, size_t piece, vtu_section section, const char *name)
 {
-    for (vtu_array *a = v->arrays; a < v->arrays + v->n_arrays; a++) {
+    for (size_t i = 0; i < v->n_arrays; i++) {
+        vtu_array *a = &v->arrays[i];
         tag t = {.name = v->text + a->tag, .end = v->text + a->tag_end - 1};
         t.n_name = strcspn(t.name, " \t\r\n/>");
         if (a->piece == piece && a->section == section &&
