@@ -419,6 +419,22 @@ def puppet():
     return beside(pictures, 700)
 
 
+def wave():
+    """The drawing of the page and its pose, with the pins."""
+    run(sys.executable, TOP / "examples/hero.py", ".")
+    pins = json.loads(block("howto/pose-a-png.md", "pins.json"))["pins"]
+    assert pins == json.loads(Path("pins.json").read_text(encoding="utf-8"))["pins"]
+    run("libicc", "pose", "--pins", "pins.json", "--background", "ffffff", "hero.png", "posed.png")
+    pictures = [Image.new("RGB", (800, 880), "white"), twice("posed.png")]
+    rest = Image.open("hero.png").resize((800, 880), Image.LANCZOS)
+    pictures[0].paste(rest, mask=rest)
+    for picture, place in zip(pictures, ("at", "to")):
+        pen = ImageDraw.Draw(picture)
+        for pin in pins:
+            dot(pen, np.multiply(2, pin.get(place, pin["at"])), 15, (20, 40, 60))
+    return beside(pictures, 700)
+
+
 def few_colours(figure):
     """A figure of thin lines as a picture."""
     return figure_picture(figure, 24)
@@ -594,7 +610,8 @@ def grid_lines(n):
         yield (0 * fine + at, fine), k * (n + 1) + at
 
 
-PICTURES = {"control-points": control_points, "puppet": puppet, "moving-mesh": moving_mesh, "certify": certify,
+PICTURES = {"control-points": control_points, "puppet": puppet, "wave": wave,
+            "moving-mesh": moving_mesh, "certify": certify,
             "fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
             "matched": matched, "glyphs": glyphs, "letters": letters, "states": states, "two-surveys": two_surveys,
             "stages": stages_of_the_papers, "mesh": mesh, "torso": torso, "torso-cut": torso_cut, "bracket": bracket,

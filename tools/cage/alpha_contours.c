@@ -1,6 +1,6 @@
 /* Marching squares (W. E. Lorensen and H. E. Cline 1987, in the plane). The corners of a square
  * are the centres of four pixels. A contour crosses a side of a square whose ends differ, and
- * runs through the square with the opaque corners to its right if y points down. If two opposite
+ * runs through the square with the opaque corners to its left as a picture is seen. If two opposite
  * corners are opaque and two are not, the mean of the four decides which are connected. */
 #include "cage/alpha_contours.h"
 
@@ -44,7 +44,7 @@ static void link_square(march *m, size_t x, size_t y)
                                 2 * square(m, x, y + 1), 2 * square(m, x, y) + 1};
     const bool joined = at[0] + at[1] + at[2] + at[3] >= 2; /* opposite opaque corners */
     for (size_t k = 0; k < 4; k++) {
-        /* A contour enters where it has the opaque end of the side to its right, .. */
+        /* A contour enters where it has the opaque end of the side to its left, .. */
         if (!(at[k] < 0.5 && at[(k + 1) % 4] >= 0.5))
             continue;
         size_t leave = k; /* .. and leaves at the next side, or the one before, that goes back */

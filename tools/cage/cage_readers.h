@@ -19,6 +19,12 @@ bool cage_svg_has(cage_role role, const char *text);
 /* Reads the outline of what is opaque in a picture, within `choice->flat.length` pixels. */
 bool cage_read_picture(cage *out, const cage_choice *choice, const char *text, size_t n,
                        problem *wrong);
+
+/* Takes the outlines of what is opaque in a picture, within `distance` pixels (0: one pixel), and
+ * then moves them outwards by up to `growth`. Several outlines are several polygons. */
+struct picture;
+bool cage_take_alpha(cage *out, const struct picture *p, double distance, double growth,
+                     problem *wrong);
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
 /* Reads OBJ, OFF, PLY, STL, glTF, Medit and VTK. The result is a surface in space, whose larger

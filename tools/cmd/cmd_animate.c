@@ -81,15 +81,14 @@ static int read_picture(animation *x)
 /* Adds a picture to the film. */
 static int add_to_film(animation *x, const picture *p)
 {
-    enum { RATE = 25 };
     const args *a = x->args;
     problem wrong;
     size_t n;
     unsigned char *png = picture_encode(p, &x->style, &n, &wrong);
     if (png == NULL)
         return failed(a->operands[1], 0, "%s", wrong.text);
-    if (x->frame == 0 && !film_open(&x->film, a->operands[1], (uint32_t)x->n_frames,
-                                    a->rate > 0 ? (uint32_t)a->rate : RATE)) {
+    if (x->frame == 0 &&
+        !film_open(&x->film, a->operands[1], (uint32_t)x->n_frames, frames_rate(a))) {
         free(png);
         return FAILED;
     }

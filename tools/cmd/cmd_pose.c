@@ -299,6 +299,8 @@ static int pose_binding(pose *p)
 
 int run_pose(const args *a)
 {
+    if (a->pins != NULL)
+        return run_pins(a);
     pose p = {.transforms = NULL};
     kernel_job_start(&p.kernel, a);
     int result = a->binding != NULL ? pose_binding(&p) : pose_shape(&p);

@@ -26,6 +26,7 @@ int run_info(const args *a);
 int run_plot(const args *a);
 int run_weights(const args *a);
 int run_pose(const args *a);
+int run_pins(const args *a); /* pose --pins */
 int run_animate(const args *a);
 int run_demo(const args *a);
 

@@ -195,11 +195,21 @@ static const command commands[] = {
      .bit = FOR_POSE,
      .n_operands = 2,
      .run = run_pose,
-     .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT\n"
+     .usage = "--pins FILE [OPTION]... IN OUT\n"
+              "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT\n"
               "--binding FILE --pose FILE [OPTION]... OUT",
-     .summary = "Moves points, meshes and pictures along with a few handles",
-     .example = "-s cat.txt -a handles.json --pose pose.json cat.png posed.png",
-     .details = "IN is a list of points, a mesh (as for 'libicc mesh') or a picture (as for "
+     .summary = "Poses a picture by pins, or points, meshes and pictures by handles",
+     .example = "--pins pins.json hero.png posed.png",
+     .details = "With --pins IN is a picture with a transparent ground. The outline of what is "
+                "opaque bends as little as it can, ends where it may, and never folds or overlaps. "
+                "The pins are JSON, where all but \"at\" may be missing:\n"
+                "\n"
+                "  {\"pins\": [{\"name\": \"hand\", \"at\": [x, y], \"to\": [x, y], \"turn\": "
+                "degrees}, ..],\n"
+                "   \"bones\": [[0, 1], ..]}       lines between two pins that stay straight\n"
+                "\n"
+                "With --handles IN is a list of points, a mesh (as for 'libicc mesh') or a picture "
+                "(as for "
                 "'libicc warp'). Its content tells which. 'libicc weights --help' describes the "
                 "handles' file. With --binding FILE you give only OUT, because the file holds the "
                 "points and their weights. The pose is JSON, either of\n"

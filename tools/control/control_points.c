@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,11 +15,13 @@ void control_add(control_points *c, const double from[2], const double to[2], si
     c->tolerances = grow(c->tolerances, &c->room_tolerances, n, sizeof *c->tolerances);
     c->lines = grow(c->lines, &c->room_lines, n, sizeof *c->lines);
     c->names = grow(c->names, &c->room_names, n, sizeof *c->names);
+    c->turns = grow(c->turns, &c->room_turns, n, sizeof *c->turns);
     memcpy(c->from + 2 * c->n, from, 2 * sizeof *from);
     memcpy(c->to + 2 * c->n, to, 2 * sizeof *to);
     c->tolerances[c->n] = 0;
     c->lines[c->n] = line;
     c->names[c->n] = NULL;
+    c->turns[c->n] = NAN;
     c->n = n;
 }
 
@@ -40,6 +43,12 @@ void control_tolerance(control_points *c, double tolerance)
     c->has_tolerances = c->has_tolerances || tolerance > 0;
 }
 
+void control_turn(control_points *c, double degrees)
+{
+    c->turns[c->n - 1] = degrees;
+    c->has_turns = true;
+}
+
 void control_free(control_points *c)
 {
     for (size_t i = 0; i < c->n; i++)
@@ -49,6 +58,8 @@ void control_free(control_points *c)
     free(c->tolerances);
     free(c->lines);
     free(c->names);
+    free(c->turns);
+    free(c->bones);
     free(c->crs);
     *c = (control_points){0};
 }

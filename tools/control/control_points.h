@@ -19,6 +19,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct control_points {
     const char *format; /* for messages: "control points of QGIS" */
@@ -28,10 +29,13 @@ typedef struct control_points {
     size_t *lines;      /* n: the line of each point in its file, from 1 */
     char **names;       /* n; each may be NULL */
     size_t n_disabled;  /* points that the file says to leave out */
-    bool has_tolerances, has_names;
+    double *turns; /* n: degrees from x to y by which the surroundings turn; NaN: as they like */
+    size_t n_bones;
+    uint32_t *bones; /* 2 n_bones points: the ends of lines that stay straight */
+    bool has_tolerances, has_names, has_turns;
     bool rows_down; /* the format counts the source's rows from the top */
     char *crs;      /* the name of the target's reference system, or NULL */
-    size_t room_from, room_to, room_tolerances, room_lines, room_names;
+    size_t room_from, room_to, room_tolerances, room_lines, room_names, room_turns;
 } control_points;
 
 /* Adds a point, exact and without a name. */
@@ -43,6 +47,9 @@ void control_name(control_points *c, const char *name, size_t n);
 
 /* Sets the tolerance of the last point. */
 void control_tolerance(control_points *c, double tolerance);
+
+/* Sets by how much the surroundings of the last point turn. */
+void control_turn(control_points *c, double degrees);
 
 void control_free(control_points *c);
 

@@ -15,6 +15,13 @@ static bool read_json(control_points *out, const char *text, size_t n, problem *
     bool good = json_tree_read_sequence(&tree, text, n, wrong);
     if (good && control_is_annotation(&tree))
         good = control_read_annotation(out, &tree, text, wrong);
+    else if (good && control_has_pins(&tree))
+        good = control_read_pins(out, &tree, text, wrong);
+    else if (good && json_get(json_first(tree.root), "type") == NULL)
+        good = !foreign_told(text, n, wrong) &&
+               spoilt(wrong, 0,
+                      "this JSON has neither \"pins\" nor GeoJSON's \"type\"; pins are {\"pins\": "
+                      "[{\"at\": [x, y], \"to\": [x, y]}, ..]}");
     else if (good)
         good = !foreign_told(text, n, wrong) && control_read_links(out, &tree, text, wrong);
     json_tree_free(&tree);

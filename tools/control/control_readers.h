@@ -27,4 +27,9 @@ bool control_read_annotation(control_points *out, const json_tree *tree, const c
 bool control_read_links(control_points *out, const json_tree *tree, const char *text,
                         problem *wrong);
 
+/* Pins of a figure, which may turn, and bones between them. */
+bool control_has_pins(const json_tree *tree);
+bool control_read_pins(control_points *out, const json_tree *tree, const char *text,
+                       problem *wrong);
+
 #endif

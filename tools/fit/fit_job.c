@@ -59,6 +59,9 @@ static int read_points(fit_job *f, const char *name, bool are_pins)
                         f->points.n_disabled > 0 ? ": all of them are disabled" : "");
     if (result != DONE)
         return result;
+    if (f->points.has_turns || f->points.n_bones > 0)
+        return failed(name, 0,
+                      "'libicc pose --pins' takes turns and bones of pins; here remove them");
     f->turned = !are_pins && affine_mirrors(&f->points);
     f->affine = need(f->points.n, 2 * sizeof *f->affine);
     f->residuals = need(f->points.n, 2 * sizeof *f->residuals);

@@ -26,6 +26,7 @@ typedef struct args {
     const char *match, *landmarks, *target_output;
     const char *by; /* the property with the names of regions; NULL: cages are no layers */
     const char *json_file, *handles, *pose, *binding, *picture;
+    const char *pins, *spine;
     const char *outline, *moves, *nearest, *drawing;
     const char *feature_points, *target_feature_points, *feature_lines, *target_feature_lines;
     const char *mesh_out, *target_mesh_out;
@@ -45,6 +46,7 @@ typedef struct args {
     int32_t fallback;    /* of triangulations; 0: none */
     int32_t quality;     /* of JPEG; 0: not given */
     int32_t rate;        /* frames of a film in a second; 0: not given */
+    int32_t frames;      /* steps to a pose that are drawn; 0: the pose alone */
     int32_t turning;     /* of outlines to match; 0: the library's choice */
     int32_t y_down_side; /* the cages in which y points down; 0: not given */
     double snap;         /* below 0: the command's choice */

@@ -153,12 +153,51 @@ static int check_operands(const args *a, const command *c)
     return DONE;
 }
 
+/* Pins need neither a shape nor handles, and nothing of their weights. */
+static int check_pins(const args *a, const command *c)
+{
+    const char *of_handles = a->source != NULL    ? "source"
+                             : a->handles != NULL ? "handles"
+                             : a->pose != NULL    ? "pose"
+                             : a->binding != NULL ? "binding"
+                             : a->certified       ? "certified"
+                             : a->tolerance > 0   ? "tolerance"
+                             : a->welds           ? "weld"
+                             : a->sampling != 0   ? "sampling"
+                             : a->weights != 0    ? "weights"
+                             : a->kernel != 0     ? "kernel"
+                             : a->initial != 0    ? "initial"
+                             : a->steps > 0       ? "steps"
+                             : a->spacing > 0     ? "spacing"
+                             : a->sigma > 0       ? "sigma"
+                             : a->seed > 0        ? "seed"
+                             : a->thesis          ? "thesis"
+                                                  : NULL;
+    const char *output = args_result(a, c);
+    if (of_handles != NULL)
+        return misused(c->name, "--%s does not go with --pins", of_handles);
+    if (a->frames > 0 && output != NULL && strcmp(output, "-") == 0)
+        return misused(c->name, "--frames writes several files or a film; OUT must be a name");
+    if (a->rate > 0 && a->frames == 0)
+        return misused(c->name, "--rate goes with --frames");
+    return DONE;
+}
+
 /* Checks the same for the commands with handles. */
 static int check_kernel(const args *a, const command *c)
 {
     bool bound = has_bound(a, c);
+    if (a->pins != NULL)
+        return check_pins(a, c);
+    if (a->spine != NULL || a->frames > 0 || a->reach > 0 || a->rate > 0)
+        return misused(c->name, "--%s goes with --pins",
+                       a->spine != NULL ? "spine"
+                       : a->frames > 0  ? "frames"
+                       : a->reach > 0   ? "reach"
+                                        : "rate");
     if (c->bit & FOR_POSE && a->pose == NULL)
-        return misused(c->name, "--pose FILE is missing");
+        return misused(c->name, "--pose FILE is missing%s",
+                       a->handles == NULL ? ", or --pins FILE" : "");
     if (a->handles == NULL && !bound)
         return misused(c->name, "--handles FILE is missing");
     if (bound && (a->handles != NULL || a->source != NULL))

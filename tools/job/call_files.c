@@ -37,6 +37,7 @@ static bool call_input(call_file *out, const args *a, const command *c, size_t i
         {a->coords, "--coords", 0},
         {a->handles, "--handles", 0},
         {a->pose, "--pose", 0},
+        {a->pins, "--pins", 0},
         {has_bound(a, c) ? a->binding : NULL, "--binding", 0},
         {a->landmarks, "--landmarks", 0},
         {a->feature_points, "--feature-points", 0},
@@ -76,6 +77,8 @@ static const char *formats_of_operand(const args *a, const command *c)
            : a->fill                                       ? NUMBERED_MESHES
            : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK, VTU, Gmsh"
            : c->bit & FOR_PLOT               ? "SVG, PNG, VTK, HTML"
+           : a->frames > 0                   ? PICTURES ", animated PNG"
+           : a->pins != NULL                 ? PICTURES
            : c->bit & FOR_POSE && a->binding ? "text"
            : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, VTU, Gmsh, " PICTURES
                                : NULL;
@@ -95,6 +98,7 @@ bool call_output(call_file *out, const args *a, const command *c, size_t i)
         {a->boundary, "--boundary", "text, GeoJSON, JSON, " SURFACES},
         {a->picture, "--picture", "SVG"},
         {a->drawing, "--plot", "SVG"},
+        {a->spine, "--spine", "JSON"},
         {c->bit & FOR_WEIGHTS ? a->binding : NULL, "--binding", "libicc's own"},
         {a->json ? a->json_file : NULL, "--json", "JSON"},
         {of_operand != NULL ? args_result(a, c) : NULL, "OUT", of_operand}};
@@ -185,7 +189,7 @@ int call_outputs_check(const args *a, const command *c)
     int result = DONE;
     for (size_t i = 0; result == DONE && call_output(&out, a, c, i); i++)
         if (out.name != NULL)
-            result = c->bit & FOR_ANIMATE && strcmp(out.role, "OUT") == 0
+            result = (c->bit & FOR_ANIMATE || a->frames > 0) && strcmp(out.role, "OUT") == 0
                          ? check_frames(a, c, &out)
                          : check_overwriting(a, c, &out, out.name);
     return result == DONE ? check_outputs_apart(a, c) : result;
@@ -210,6 +214,14 @@ char *frame_name(const char *out, size_t frame)
 
 size_t frames_count(const args *a)
 {
+    if (a->frames > 0)
+        return (size_t)a->frames + 1;
     size_t steps = a->steps > 0 ? (size_t)a->steps : 1;
     return (a->n_operands - 3) * steps + 1;
+}
+
+uint32_t frames_rate(const args *a)
+{
+    enum { RATE = 25 };
+    return a->rate > 0 ? (uint32_t)a->rate : RATE;
 }

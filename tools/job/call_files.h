@@ -24,14 +24,16 @@ int call_inputs_check(const args *a, const command *c);
  * all of it has an image. */
 int call_outputs_check(const args *a, const command *c);
 
-/* True if the frames of `animate` become one film: OUT is named .apng. */
+/* True if frames become one film: OUT is named .apng. */
 bool is_film(const char *out);
 
-/* The name of a frame of `animate`: OUT with a number before its extension, or OUT for a film.
+/* The name of a frame: OUT with a number before its extension, or OUT for a film.
  * free() it. */
 char *frame_name(const char *out, size_t frame);
 
-/* The number of frames that `animate` writes. */
+/* The number of frames that `animate` or `pose --frames` writes, and how many of them a film shows in
+ * a second. */
 size_t frames_count(const args *a);
+uint32_t frames_rate(const args *a);
 
 #endif
