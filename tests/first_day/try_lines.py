@@ -143,7 +143,9 @@ class Section:
 
 
 def sections_of(page):
-    return [Section(text) for text in re.split(r"^## ", page.read_text(encoding="utf-8"), flags=re.M)[1:]]
+    """Those that have code: others point to other pages."""
+    parts = re.split(r"^## ", page.read_text(encoding="utf-8"), flags=re.M)[1:]
+    return [Section(text) for text in parts if BLOCK.search(text)]
 
 
 def lacking(modules):
