@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""VTU as VTK and meshio write it, in every form, and as VTK reads what the command has written.
+"""VTU as VTK and meshio write it, in every form, and as VTK reads what the command has written. Vectors in VTU and legacy VTK.
 
 usage: test_vtu.py TOOL SCRATCH
 
@@ -48,8 +48,8 @@ def off(path, points):
         file.writelines("3 " + " ".join(map(str, f)) + "\n" for f in FACES)
 
 
-def mapped(name, out, expected=0):
-    run = subprocess.run([TOOL, "mesh", "-s", "before.off", "-t", "after.off", name, out], capture_output=True, text=True)
+def mapped(name, out, expected=0, words=()):
+    run = subprocess.run([TOOL, "mesh", "-s", "before.off", "-t", "after.off", *words, name, out], capture_output=True, text=True)
     check(run.returncode == expected, f"{name}: exit {run.returncode}: {run.stderr}")
     return run.returncode == expected
 
@@ -174,6 +174,65 @@ def of_vtk():
             compare("pieces.vtu", read("pieces.vtu"), read("out_pieces.vtu"))
 
 
+def with_vectors():
+    """The grid with vectors, normals and what legacy VTK has sections of its own for."""
+    out = grid("f8")
+    n, n_cells = out.GetNumberOfPoints(), out.GetNumberOfCells()
+    normals = np.random.default_rng(1).normal(size=(n, 3))
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    ids = vtk.vtkIdTypeArray()
+    for i in range(n):
+        ids.InsertNextValue(i)
+    ids.SetName("ids")
+    out.GetPointData().SetGlobalIds(ids)
+    for data, call, name, values in (
+            (out.GetPointData(), "SetNormals", "Normals", normals.astype("f4")), (out.GetPointData(), "SetVectors", "a vector", normals),
+            (out.GetPointData(), "SetScalars", "s", normals[:, 0].copy()), (out.GetPointData(), "SetTCoords", "uv", normals[:, :2].copy()),
+            (out.GetPointData(), "SetTensors", "t", np.arange(9.0 * n).reshape(n, 9)),
+            (out.GetCellData(), "SetScalars", "colours", np.arange(3 * n_cells).reshape(n_cells, 3).astype("u1"))):
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        getattr(data, call)(array)
+    out.GetFieldData().Initialize()
+    return out
+
+
+def of_vectors():
+    u, _, v = np.linalg.svd(MATRIX)
+    rotation, cofactors = u @ v, np.linalg.inv(MATRIX).T
+
+    def read_legacy(name):
+        reader = vtk.vtkUnstructuredGridReader()
+        reader.SetFileName(name)
+        for what in ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields"):
+            getattr(reader, f"ReadAll{what}On")()
+        reader.Update()
+        return reader.GetOutput()
+
+    legacy, xml = vtk.vtkUnstructuredGridWriter(), vtk.vtkXMLUnstructuredGridWriter()
+    for name, writer, how in [(f"v{v}{'b' * b}.vtk", legacy, (v, b)) for v in (42, 51) for b in (0, 1)] + [("v.vtu", xml, None)]:
+        writer.SetInputData(with_vectors())
+        writer.SetFileName(name)
+        if how:
+            writer.SetFileVersion(how[0])
+            writer.SetFileType(how[1] + 1)
+        writer.Write()
+        if not mapped(name, "out_" + name, 4, ("--rotate-vectors",)):
+            continue
+        before, after = ((read_legacy if how else read)(n) for n in (name, "out_" + name))
+        for what in ("GetPointData", "GetCellData"):
+            one, two = (arrays(getattr(g, what)()) for g in (before, after))
+            check(sorted(one) == sorted(two), f"{name}: {sorted(two)}")
+            for key in one:
+                if key == "Normals":
+                    images = one[key] @ cofactors.T
+                    check(np.abs(images / np.linalg.norm(images, axis=1)[:, None] - two[key]).max() < 1e-6, f"{name}: normals")
+                elif key in ("velocity", "a vector"):
+                    check(np.abs(one[key] @ rotation.T - two[key]).max() < (1e-6 if key == "velocity" else 1e-12), f"{name}: {key}")
+                else:
+                    check(np.array_equal(one[key], two[key]), f"{name}: {key}")
+
+
 def of_meshio():
     points, cells = lattice(3)
     mesh = meshio.Mesh(points, [("hexahedron", cells)], point_data={"v": points * 2, "s": points[:, 0]}, cell_data={"c": [np.arange(len(cells))]})
@@ -197,6 +256,7 @@ def main():
     off("after.off", CORNERS @ MATRIX.T + SHIFT)
     if vtk is not None:
         of_vtk()
+        of_vectors()
     if meshio is not None:
         of_meshio()
     if not FAILURES:

@@ -13,8 +13,10 @@ static bool is_text(const lines *r)
     return r->mesh->form == MESH_TEXT;
 }
 
+/* VTK writes ids of points and cells (vtkIdType) as int, whatever they are in memory. */
 size_t vtk_size(const char *word, size_t n)
 {
+    /* VTK writes its own numbers of points and cells as int, whatever they are in memory. */
     static const struct {
         const char *name;
         size_t size;
@@ -23,7 +25,7 @@ size_t vtk_size(const char *word, size_t n)
                  {"unsigned_short", 2}, {"int", 4},
                  {"unsigned_int", 4},   {"long", 8},
                  {"unsigned_long", 8},  {"vtktypeint64", 8},
-                 {"vtktypeuint64", 8},  {"vtkIdType", 8},
+                 {"vtktypeuint64", 8},  {"vtkIdType", 4},
                  {"long_long", 8},      {"unsigned_long_long", 8},
                  {"vtktypeint32", 4},   {"vtktypeuint32", 4},
                  {"vtktypeint16", 2},   {"vtktypeuint16", 2},
