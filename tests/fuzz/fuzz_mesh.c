@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "base/foreign.h"
+#include "base/gltf_pack.h"
 #include "fuzz.h"
 #include "mesh/mesh_carry.h"
 #include "mesh/mesh_vectors.h"
@@ -78,13 +79,13 @@ static void require_normals(const mesh_file *m)
 }
 
 /* What mesh_write() writes, of exactly n bytes and a '\0'. */
-static char *write_mesh(const mesh_file *m, const double *points, size_t *n)
+static char *write_mesh(const mesh_file *m, const double *points, const char *name, size_t *n)
 {
     char *text = NULL;
     FILE *stream = open_memstream(&text, n);
     if (stream == NULL)
         exit(0);
-    mesh_write(m, points, "out", stream);
+    mesh_write(m, points, name, stream);
     require(fclose(stream) == 0);
     char *exact = malloc(*n + 1);
     if (exact == NULL)
@@ -106,7 +107,7 @@ static bool read_back(mesh_file *out, const mesh_file *m, const char *text, size
 static void require_written(const mesh_file *m)
 {
     size_t n, n_again;
-    char *text = write_mesh(m, m->points, &n);
+    char *text = write_mesh(m, m->points, "out", &n);
     mesh_file back;
     if (!read_back(&back, m, text, n)) {
         mesh_free(&back);
@@ -119,7 +120,7 @@ static void require_written(const mesh_file *m)
             strcmp(back.format, m->format) == 0);
     for (size_t i = 0; i < m->n_vertices * m->dim; i++)
         require(back.points[i] <= m->points[i] && back.points[i] >= m->points[i]);
-    char *again = write_mesh(&back, back.points, &n_again);
+    char *again = write_mesh(&back, back.points, "out", &n_again);
     require(n_again == n && memcmp(again, text, n) == 0);
     mesh_free(&back);
     free(again);
@@ -155,6 +156,22 @@ static bool derive(void *data, size_t n, const double *points, const double *dir
     return n != 11;
 }
 
+/* A scene that is written as JSON reads back as the same mesh. */
+static void require_packed(const mesh_file *m, problem *wrong)
+{
+    size_t n_packed, n_text;
+    if (!mesh_is_glb(m->text, m->n_text))
+        return;
+    char *text = write_mesh(m, m->points, "out.gltf", &n_text);
+    char *packed = gltf_told(text, n_text) ? gltf_pack("-", text, n_text, &n_packed, wrong) : NULL;
+    mesh_file back = {.n_text = 0};
+    if (packed != NULL && mesh_read(&back, m->dim, packed, n_packed, wrong))
+        require(back.n_vertices == m->n_vertices && back.n_triangles == m->n_triangles);
+    mesh_free(&back);
+    free(packed);
+    free(text);
+}
+
 static void require_carried(mesh_file *m, problem *wrong)
 {
     double *images = calloc(m->n_vertices, m->dim * sizeof *images);
@@ -179,7 +196,7 @@ static void require_carried(mesh_file *m, problem *wrong)
         if (good) {
             mesh_file back;
             require(what.n_stay <= what.n_vectors && what.shared >= 0 && what.shared <= 180);
-            char *text = write_mesh(m, images, &n);
+            char *text = write_mesh(m, images, "out", &n);
             if (read_back(&back, m, text, n)) {
                 require_sound(&back);
                 require_normals(&back);
@@ -195,9 +212,23 @@ static void require_carried(mesh_file *m, problem *wrong)
     free(images);
 }
 
+/* A scene in JSON comes to the readers as one binary file. */
+static char *pack(char *text, size_t *n)
+{
+    problem wrong;
+    if (!gltf_told(text, *n))
+        return text;
+    char *packed = gltf_pack("-", text, *n, n, &wrong);
+    require(packed != NULL || (wrong.text[0] != '\0' && strpbrk(wrong.text, "\r\n") == NULL));
+    free(text);
+    return packed;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char *text = text_of(data, size);
+    if (text != NULL)
+        text = pack(text, &size);
     if (text == NULL)
         return 0;
     for (size_t dim = 2; dim <= 3; dim++) {
@@ -207,6 +238,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             require_sound(&m);
             require_normals(&m);
             require_written(&m);
+            require_packed(&m, &wrong);
             require_carried(&m, &wrong);
         } else {
             require(wrong.text[0] != '\0' && strpbrk(wrong.text, "\r\n") == NULL);

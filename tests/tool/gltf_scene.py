@@ -64,7 +64,7 @@ class Scene:
         a = np.asarray(a, kind)
         self.tree['bufferViews'].append({'buffer': 0, 'byteOffset': len(self.body), 'byteLength': a.nbytes})
         self.body += a.tobytes() + b'\0' * (-a.nbytes % 4) + self.gap
-        names = {1: 'SCALAR', 3: 'VEC3', 4: 'VEC4'}
+        names = {1: 'SCALAR', 3: 'VEC3', 4: 'VEC4', 16: 'MAT4'}
         accessor = {'bufferView': len(self.tree['bufferViews']) - 1, 'componentType': 5126 if kind == '<f4' else 5123, 'count': len(a),
                     'type': names[a.shape[1] if a.ndim > 1 else 1]}
         if bounds:
@@ -135,9 +135,11 @@ class Read:
     def array(self, i):
         a = self.tree['accessors'][i]
         view = self.tree['bufferViews'][a['bufferView']]
-        n = {'VEC3': 3, 'VEC4': 4}[a['type']]
-        at, step = view.get('byteOffset', 0) + a.get('byteOffset', 0), view.get('byteStride', 4 * n)
-        out = np.array([np.frombuffer(self.body, '<f4', n, at + k * step) for k in range(a['count'])], float)
+        n = {'SCALAR': 1, 'VEC3': 3, 'VEC4': 4, 'MAT4': 16}[a['type']]
+        at = view.get('byteOffset', 0) + a.get('byteOffset', 0)
+        kind = {5126: '<f4', 5123: '<u2'}[a['componentType']]
+        step = view.get('byteStride', np.dtype(kind).itemsize * n)
+        out = np.array([np.frombuffer(self.body, kind, n, at + k * step) for k in range(a['count'])], float)
         if 'min' in a:
             assert np.array_equal([out.min(0), out.max(0)], np.array([a['min'], a['max']], 'f4')), (i, a)
         return out
@@ -155,6 +157,28 @@ def matrix(node):
     m[:3, :3] = (np.eye(3) + 2 * w * u + 2 * u @ u) * node.get('scale', [1, 1, 1])
     m[:3, 3] = node.get('translation', [0, 0, 0])
     return m
+
+
+def placed(tree):
+    """The matrices of all nodes in the scene."""
+    nodes, out = tree['nodes'], {}
+    above = {c: i for i, x in enumerate(nodes) for c in x.get('children', ())}
+    def find(i):
+        if i not in out:
+            out[i] = (find(above[i]) if i in above else np.eye(4)) @ matrix(nodes[i])
+        return out[i]
+    return [find(i) for i in range(len(nodes))]
+
+
+def skinned(scene, node):
+    """The vertices that a node with a skin draws, in the scene."""
+    x, m = scene.tree['nodes'][node], placed(scene.tree)
+    part, skin = scene.part(x['mesh'])['attributes'], scene.tree['skins'][x['skin']]
+    v, w = scene.array(part['POSITION']), scene.array(part['WEIGHTS_0'])
+    k = scene.array(part['JOINTS_0']).astype(int)
+    bind = scene.array(skin['inverseBindMatrices']).reshape(-1, 4, 4).transpose(0, 2, 1)
+    at = np.array([m[j] @ b for j, b in zip(skin['joints'], bind)])
+    return np.einsum('vk,vkij,vj->vi', w, at[k], np.c_[v, np.ones(len(v))])[:, :3]
 
 
 def apply(m, p):

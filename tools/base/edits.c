@@ -46,48 +46,28 @@ static int by_begin(const void *a, const void *b)
                             : (p->from > q->from) - (p->from < q->from);
 }
 
-/* Where a text is written: a stream, or memory, or neither. */
-typedef struct sink {
-    FILE *stream;
-    char *memory;
-    size_t n;
-} sink;
-
-static void put(sink *to, const char *bytes, size_t n)
+static size_t put(const char *bytes, size_t n, FILE *stream)
 {
-    if (n > 0 && to->stream != NULL)
-        fwrite(bytes, 1, n, to->stream);
-    if (n > 0 && to->memory != NULL)
-        memcpy(to->memory + to->n, bytes, n);
-    to->n += n;
+    if (n > 0 && stream != NULL)
+        fwrite(bytes, 1, n, stream);
+    return n;
 }
 
-static size_t write_to(sink to, edits *e, const char *text, size_t n)
+size_t edits_write(edits *e, const char *text, size_t n, FILE *stream)
 {
-    size_t at = 0;
+    size_t at = 0, written = 0;
     if (e->n > 0)
         qsort(e->list, e->n, sizeof *e->list, by_begin);
     for (size_t i = 0; i < e->n; i++) {
         const edit *one = &e->list[i];
         if (one->begin < at)
             continue;
-        put(&to, text + at, one->begin - at);
+        written += put(text + at, one->begin - at, stream);
         if (one->to > one->from)
-            put(&to, e->bytes + one->from, one->to - one->from);
+            written += put(e->bytes + one->from, one->to - one->from, stream);
         at = one->end;
     }
-    put(&to, text + at, n - at);
-    return to.n;
-}
-
-size_t edits_write(edits *e, const char *text, size_t n, FILE *stream)
-{
-    return write_to((sink){.stream = stream}, e, text, n);
-}
-
-size_t edits_copy(edits *e, const char *text, size_t n, char *out)
-{
-    return write_to((sink){.memory = out}, e, text, n);
+    return written + put(text + at, n - at, stream);
 }
 
 char *edits_apply(edits *e, const char *text, size_t *n, size_t *places, size_t n_places)

@@ -33,9 +33,6 @@ size_t edits_write(edits *e, const char *text, size_t n, FILE *stream);
 /* Returns the text with its edits and a '\0'; free() it. *n becomes its length. Places in the text,
  * in rising order, move with it. None may lie inside a replaced piece. */
 char *edits_apply(edits *e, const char *text, size_t *n, size_t *places, size_t n_places);
-
-/* Writes it into memory. */
-size_t edits_copy(edits *e, const char *text, size_t n, char *out);
 void edits_free(edits *e);
 
 #endif

@@ -1,7 +1,7 @@
 /* Khronos Group, glTF 2.0 Specification, 2021: sections 3.6 (buffers) and 4 (the binary form).
  *
- * All buffers become one, each from a multiple of four bytes on. In the JSON only the list of buffers,
- * and the buffer and offset of each view, change. */
+ * All buffers become one, each from a multiple of four bytes on. In the JSON only the list of
+ * buffers, and the buffer and offset of each view, change. */
 #include "base/gltf_pack.h"
 
 #include "base/allocate.h"
@@ -231,7 +231,8 @@ static bool is_version_2(const packer *p)
 char *gltf_join(edits *e, const char *json, size_t n_json, const char *rest, size_t n_rest,
                 size_t *n)
 {
-    size_t n_text = edits_write(e, json, n_json, NULL), padded = (n_text + 3) / 4 * 4;
+    char *edited = edits_apply(e, json, &n_json, NULL, 0);
+    size_t padded = (n_json + 3) / 4 * 4;
     *n = N_HEAD + N_CHUNK + padded + n_rest;
     char *out = need(*n + 1, 1), *at = out;
     memcpy(at, "glTF", 4);
@@ -240,8 +241,9 @@ char *gltf_join(edits *e, const char *json, size_t n_json, const char *rest, siz
     put_little_endian((unsigned char *)at + N_HEAD, (uint32_t)padded);
     memcpy(at + N_HEAD + 4, "JSON", 4);
     at += N_HEAD + N_CHUNK;
-    edits_copy(e, json, n_json, at);
-    memset(at + n_text, ' ', padded - n_text);
+    memcpy(at, edited, n_json);
+    memset(at + n_json, ' ', padded - n_json);
+    free(edited);
     if (n_rest > 0)
         memcpy(at + padded, rest, n_rest);
     return out;

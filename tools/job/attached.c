@@ -206,8 +206,14 @@ void attached_tell(const char *file, const mesh_carried *c)
              file, c->shared);
     if (c->other)
         note("%s: some normals or tangents stay as they are", file);
-    if (c->skins)
+    if (c->skins && c->why == NULL)
         note("%s: skins stay as they are (joints and inverse bind matrices)", file);
+    if (c->skins && c->why != NULL)
+        note("%s: skins[%zu] stays as it is (joints and inverse bind matrices): %s", file, c->skin,
+             c->why);
+    if (c->n_out > 0)
+        note("%s: %zu of %zu joints have no image and stay where they are", file, c->n_out,
+             c->n_joints);
     if (c->animations)
         note("%s: animations of nodes stay as they are", file);
 }

@@ -126,14 +126,14 @@ static bool find_view(const glb *g, size_t index, size_t *at, size_t *n, size_t 
 /* The bytes of an item, or 0 if it is not of that kind. */
 static size_t item_size(const json_item *accessor, glb_kind kind)
 {
-    static const char *const types[] = {"SCALAR", "VEC3", "VEC4"};
+    static const char *const types[] = {"SCALAR", "VEC3", "VEC4", "MAT4"};
     const char *type = json_string_of(json_get(accessor, "type"));
     const json_item *component = json_get(accessor, "componentType");
     double number = component != NULL ? component->number : 0;
     if (type == NULL || strcmp(type, types[kind]) != 0)
         return 0;
     if (kind != GLB_INDICES)
-        return number != FLOATS ? 0 : kind == GLB_THREE ? 12 : 16;
+        return number != FLOATS ? 0 : kind == GLB_THREE ? 12 : kind == GLB_FOUR ? 16 : 64;
     return number == BYTES ? 1 : number == SHORTS ? 2 : number == WORDS ? 4 : 0;
 }
 
@@ -157,9 +157,10 @@ bool glb_find_items(const glb *g, const json_item *index, const char *of, glb_ki
     out->size = item_size(object, kind);
     if (out->size == 0)
         return spoilt(wrong, 0, "%s, for %s, is not of %s", where, of,
-                      kind == GLB_THREE  ? "three floats"
-                      : kind == GLB_FOUR ? "four floats"
-                                         : "whole numbers without a sign");
+                      kind == GLB_THREE    ? "three floats"
+                      : kind == GLB_FOUR   ? "four floats"
+                      : kind == GLB_MATRIX ? "matrices of floats"
+                                           : "whole numbers without a sign");
     if (json_get(object, "sparse") != NULL || json_get(object, "bufferView") == NULL)
         return spoilt(wrong, 0, "%s, for %s, is sparse or compressed; save without that", where,
                       of);
@@ -228,6 +229,12 @@ static bool find_positions(glb *g, problem *wrong)
         if (!add_positions(g, g->primitives[i].json, wrong))
             return false;
     return number_sets(g, wrong);
+}
+
+size_t glb_set_of(const glb *g, const glb_primitive *primitive)
+{
+    const json_item *attributes = json_get(primitive->json, "attributes");
+    return g->set_of[(size_t)json_get(attributes, "POSITION")->number];
 }
 
 bool glb_open(glb *out, const char *text, size_t n, problem *wrong)

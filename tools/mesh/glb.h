@@ -3,6 +3,7 @@
 #ifndef GLB_H
 #define GLB_H
 
+#include "base/edits.h"
 #include "base/json_tree.h"
 #include "base/say.h"
 
@@ -14,8 +15,8 @@ typedef struct glb_items {
     size_t at, n, size, stride;
 } glb_items;
 
-/* The type of the items of an accessor: integers, or three or four floats each. */
-typedef enum glb_kind { GLB_INDICES, GLB_THREE, GLB_FOUR } glb_kind;
+/* The type of the items of an accessor: integers, or 3, 4 or 16 floats each. */
+typedef enum glb_kind { GLB_INDICES, GLB_THREE, GLB_FOUR, GLB_MATRIX } glb_kind;
 
 /* An accessor that holds positions, and the number of its first vertex. */
 typedef struct glb_positions {
@@ -71,6 +72,9 @@ void glb_close(glb *g);
 bool glb_find_items(const glb *g, const json_item *index, const char *of, glb_kind kind,
                     size_t *accessor, glb_items *out, problem *wrong);
 
+/* The number of the positions of a primitive. */
+size_t glb_set_of(const glb *g, const glb_primitive *primitive);
+
 /* The affine maps (affine_map.h) by which nodes place each of the n_sets sets of positions; free()
  * them. NULL: see `wrong`. */
 double (*glb_find_places(const glb *g, problem *wrong))[12];
@@ -84,8 +88,8 @@ glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wro
 bool glb_is_apart(const glb *g, size_t n_text, size_t n, const glb_vectors *vectors,
                   problem *wrong);
 
-/* The first is true if a mesh is skinned, the second if nodes are animated. */
-bool glb_has_skins(const glb *g);
-bool glb_has_animations(const glb *g);
+/* Sets the bounds of an accessor to those of its items in `text`. Bounds that it does not have are
+ * added. */
+void glb_set_bounds(edits *e, const json_item *accessor, const char *text, const glb_items *items);
 
 #endif

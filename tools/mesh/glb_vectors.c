@@ -1,4 +1,5 @@
-/* Carries the normals, tangents and morph targets of a binary glTF file along with its positions.
+/* Carries the normals, tangents and morph targets of a glTF scene along with its positions. Joints
+ * are moved by glb_joints.c.
  *
  * Khronos Group, glTF 2.0 Specification, 2021: section 3.7.2 (meshes). A morph target displaces a vertex
  * by d, so its image displaces the vertex's image by map(p + d) - map(p). Normals turn by the inverse
@@ -8,9 +9,11 @@
 
 #include "base/allocate.h"
 #include "base/bytes.h"
+#include "base/gltf_pack.h"
 #include "base/json_in.h"
 #include "mesh/affine_map.h"
 #include "mesh/glb.h"
+#include "mesh/glb_joints.h"
 #include "mesh/mesh_lines.h"
 
 #include <float.h>
@@ -443,6 +446,15 @@ static void count_all(const carrier *c)
     }
 }
 
+/* Puts the changed text together. */
+static void take_text(mesh_file *m, const glb *g, edits *e, const char *text)
+{
+    m->own = gltf_join(e, text + g->json_at, g->json->end, text + g->json_end,
+                       m->n_text - g->json_end, &m->n_text);
+    m->text = m->own;
+    m->carried = true;
+}
+
 bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
                problem *wrong)
 {
@@ -461,19 +473,21 @@ bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh
                  .out = out,
                  .wrong = wrong};
     bool good = vectors != NULL || n == 0;
-    out->skins = glb_has_skins(&g);
-    out->animations = glb_has_animations(&g);
     for (size_t i = 0; i < c.n_vectors; i++)
         c.of[vectors[i].accessor] = i + 1;
     if (good && mover == NULL)
         count_all(&c);
-    if (good && mover != NULL && c.n_vectors > 0) {
-        c.text = need(m->n_text + 1, 1);
-        memcpy(c.text, m->text, m->n_text);
-        good = glb_is_apart(&g, m->n_text, n, vectors, wrong) && carry_all(&c);
-        m->text = m->own = c.text;
-        m->carried = true;
-    }
+    c.text = need(m->n_text + 1, 1);
+    memcpy(c.text, m->text, m->n_text);
+    if (good && mover != NULL)
+        good = glb_is_apart(&g, m->n_text, c.n_vectors, vectors, wrong) && carry_all(&c);
+    edits e = {0};
+    good = good && glb_carry_joints(&g, m->dim, c.text, m->n_text, c.n_vectors, vectors, &e, mover,
+                                    out, wrong);
+    if (good && mover != NULL)
+        take_text(m, &g, &e, c.text);
+    free(c.text);
+    edits_free(&e);
     free(c.of);
     free(vectors);
     glb_close(&g);

@@ -1,5 +1,5 @@
-/* Writes a glTF scene with other positions. They go back through the nodes that place them, and their
- * bounds in the JSON are updated. In JSON, the bytes stand inside as a data: URI. */
+/* Writes a glTF scene with other positions. They go back through the nodes that place them, and
+ * their bounds in the JSON are updated. In JSON, the bytes stand inside as a data: URI. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -97,9 +97,7 @@ static void put_bound(edits *e, const char *text, const glb_items *items, size_t
     edits_put_number(e, bound);
 }
 
-/* Sets the bounds of an accessor. Bounds that it does not have are added at its end. */
-static void set_bounds(edits *e, const json_item *accessor, const char *text,
-                       const glb_items *items)
+void glb_set_bounds(edits *e, const json_item *accessor, const char *text, const glb_items *items)
 {
     static const char *const names[] = {"min", "max"}, *const added[] = {",\"min\":", ",\"max\":"};
     for (size_t side = 0; side < 2; side++) {
@@ -130,7 +128,7 @@ static void update_bounds(edits *e, const mesh_file *m, const glb *g, const char
             items[vectors[v].accessor] = &vectors[v].items;
     for (size_t i = 0; i < g->n_accessors; i++)
         if (items[i] != NULL)
-            set_bounds(e, g->accessors[i], text, items[i]);
+            glb_set_bounds(e, g->accessors[i], text, items[i]);
     free(vectors);
     free(items);
 }

@@ -31,13 +31,16 @@ typedef struct mesh_carried {
                                    angle, in degrees */
     size_t n_morphed, n_beyond; /* displaced vertices; how many of them have no image */
     bool other;                 /* there are normals or tangents that cannot be read; they stay */
-    bool skins, animations;     /* joints or nodes move; they stay */
-    mesh_rotated rotated;       /* mesh_vectors.h */
+    bool skins, animations;     /* some of them stay as they are */
+    size_t skin;                /* the first skin that stays, and why, or NULL */
+    const char *why;
+    size_t n_joints, n_out; /* joints that move; how many of them have no image and stay */
+    mesh_rotated rotated;   /* mesh_vectors.h */
 } mesh_carried;
 
-/* Replaces them in the text of m, whose vertices become `images`, rounded. Without a mover it only
- * counts: n_vectors, n_morphed and the flags. False: see `wrong`. If its text is empty, the mover
- * has printed a message. */
+/* Replaces them in the text of m, whose vertices become `images`, rounded, and moves joints along.
+ * Without a mover it only counts: n_vectors, n_morphed and the flags. False: see `wrong`. If its
+ * text is empty, the mover has printed a message. */
 bool mesh_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
                 problem *wrong);
 

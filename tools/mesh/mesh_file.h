@@ -17,7 +17,8 @@
  * Ways
  * - Text formats read by mesh_lines.h; numbers of VTK by vtk_numbers.h. VTU: vtu.h finds arrays,
  *   vtu_read.c reads and vtu_put.c writes their numbers. glTF: glb.h finds places,
- *   glb_nodes.c nodes, glb_vectors.c normals and morph targets, glb_write.c writes; affine_map.h.
+ *   glb_nodes.h nodes and skins, glb_places.c what they place, glb_vectors.c normals and morph
+ *   targets, glb_joints.h moves joints, glb_write.c writes; affine_map.h.
  * - A new kind of element: element_kinds.h. The boundary of a mesh: mesh_boundary.h.
  *
  * A format is a file mesh_NAME.c with one reader. Begin with mesh_file.c. */
