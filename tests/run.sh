@@ -26,7 +26,7 @@ if [ "$tier" = long ]; then
 fi
 if [ "$tier" != plain ]; then
     need libsuitesparse-dev cargo rustc mypy doxygen mandoc man-db clang-format netpbm librsvg2-bin proj-bin gdal-bin \
-        assimp-utils zsh fish \
+        assimp-utils zsh fish libeigen3-dev libglm-dev \
         python3-setuptools python3-wheel python3-pip python3-venv \
         python3-distributed python3-geopandas python3-matplotlib python3-meshio python3-pil python3-rasterio \
         python3-shapely python3-skimage python3-vtk9 python3-xarray python3-zarr

@@ -88,12 +88,12 @@ CHECKS = {
         "a field of another program": "_['certified']",
         "on the grid of an image": "_.shape == (9, 9, 9) and near(_.images[3, 4, 5], solid([[3, 4, 5]])[0])",
         "for ANTs and ITK": "near(nibabel.load('field.nii.gz').get_fdata()[:, :, :, 0], field.displacements * [-1, -1, 1])",
-        "for elastix and Slicer": "b'ElementNumberOfChannels = 3' in Path('field.mha').read_bytes()",
+        "for elastix and Slicer": "b'ElementNumberOfChannels = 3' in open('field.mha', 'rb').read()",
         "for VTK": "near(vtk_to_numpy(reader('field.vti').GetOutput().GetPointData().GetScalars()).reshape(9, 9, 9, 3)"
                    ".transpose(2, 1, 0, 3), field.displacements)",
         "vtkGridTransform": "near(_, field.images[3, 4, 5], 1e-6)",
-        "for compositors": "Path('stmap.pfm').read_bytes().startswith(b'PF')",
-        "cv2.remap": "all(one.shape == (20, 30) and one.dtype == numpy.float32 for one in _)",
+        "for compositors": "open('stmap.pfm', 'rb').read().startswith(b'PF')",
+        "cv2.remap": "all(one.shape == (9, 10) and one.dtype == numpy.float32 for one in _)",
         "derivatives by points": "_.shape == (1, 3, 3) and numpy.linalg.det(_[0]) > 0",
         "derivatives by the target's vertices": "callable(_)",
     },
@@ -142,10 +142,10 @@ class Section:
         self.lines = ROW.findall(body)
 
 
-def sections_of(page):
-    """Those that have code: others point to other pages."""
-    parts = re.split(r"^## ", page.read_text(encoding="utf-8"), flags=re.M)[1:]
-    return [Section(text) for text in parts if BLOCK.search(text)]
+def parts_of(page):
+    """The code at the page's beginning, and the sections that have code: others point to other pages."""
+    beginning, *parts = re.split(r"^## ", page.read_text(encoding="utf-8"), flags=re.M)
+    return BLOCK.search(beginning).group(2), [Section(text) for text in parts if BLOCK.search(text)]
 
 
 def lacking(modules):
@@ -155,7 +155,7 @@ def lacking(modules):
 
 
 class Python:
-    """All sections in Python share their names, as they do for a reader of the page."""
+    """Sections share their names, but need only those of the page's beginning."""
 
     def __init__(self):
         import numpy
@@ -185,6 +185,9 @@ class Python:
 
     def missing(self, section):
         return ", ".join(lacking(["numpy", *section.modules]))
+
+    def begin(self, code):
+        exec(compile(code, "the beginning", "exec"), self.names)
 
     def run(self, section):
         exec(compile(section.code, section.name, "exec"), self.names)
@@ -308,10 +311,12 @@ def strangers(sections):
 def main():
     page, language = Path(sys.argv[1]).resolve(), sys.argv[2]
     runner = {"python": Python, "cpp": Cpp, "js": JavaScript}[language](*sys.argv[3:])
-    sections = sections_of(page)
+    beginning, sections = parts_of(page)
     faults = list(strangers(sections))
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
+        if language == "python":
+            runner.begin(beginning)
         for section in sections if not faults else ():
             if section.language != language:
                 continue

@@ -138,26 +138,36 @@ def certify_field(values: Any, spacing: Any = 1.0, origin: Any = 0.0, *, displac
         values: (nx, ny, 2), (nx, ny, nz, 3) or a `Field`. float32 is judged as it is
         spacing: one number, one for each axis, or a matrix whose row k is one step along axis k
         displacement: whether values are added to the places; False: they are the images themselves
-        most: list at most this many cells
+        most: list at most this many cells, first those that fold, then undecided ones
     Returns:
         the members of `icc_field_report`, and `cells`: ((i, j, ..), "folded", "undecided" or "missing") each
     """
     field = values if isinstance(values, Field) else Field(values, origin, spacing, displacement)
     struct, _stored = field._struct()
-    call, report = Call(progress, threads), new("field_report")
-    cells, kinds = np.empty(most, np.uint32), np.empty(most, np.int32)
-    call.check(lib.field_certify(ctypes.addressof(struct), most, address(cells), address(kinds),
-                                 ctypes.addressof(report), call.env, call.err))
-    n = min(most, report.n_folded + report.n_undecided + report.n_missing)
-    places = np.unravel_index(cells[:n].astype(np.intp), [side - 1 for side in field.shape], order="F")
+    cells, kinds, report = _certified(struct, most, progress, threads)
+    total = report.n_folded + report.n_undecided + report.n_missing
+    if total > most and report.n_missing < total:
+        cells, kinds, report = _certified(struct, total, progress, threads)
+    order = np.argsort(kinds, kind="stable")[:most]
+    places = np.unravel_index(cells[order].astype(np.intp), [side - 1 for side in field.shape], order="F")
     listed: List[Tuple[Tuple[int, ...], str]] = [
-        (tuple(int(axis[i]) for axis in places), KINDS[kinds[i] - 1]) for i in range(n)]
+        (tuple(place), KINDS[kind - 1]) for place, kind in zip(np.transpose(places).tolist(), kinds[order].tolist())]
     result = {name: getattr(report, name) for name in
               ("certified", "one_to_one", "n_cells", "n_folded", "n_undecided", "n_missing", "least")}
     result["certified"], result["one_to_one"] = bool(report.certified), bool(report.one_to_one)
     result["message"] = report.message.decode("utf-8")
     result["cells"] = listed
     return result
+
+
+def _certified(struct: Any, most: int, progress: Optional[Progress], threads: Optional[int]) -> Tuple[Any, Any, Any]:
+    """The first cells that are not certified, their kinds, and the report."""
+    call, report = Call(progress, threads), new("field_report")
+    cells, kinds = np.empty(most, np.uint32), np.empty(most, np.int32)
+    call.check(lib.field_certify(ctypes.addressof(struct), most, address(cells), address(kinds),
+                                 ctypes.addressof(report), call.env, call.err))
+    n = min(most, report.n_folded + report.n_undecided + report.n_missing)
+    return cells[:n], kinds[:n], report
 
 
 def _sample(mapping: Any, field: Field, inverse: bool, outside: str, call: Call) -> None:

@@ -57,6 +57,15 @@ class Certificates(unittest.TestCase):
             self.check(field, report, places)
             self.assertEqual(report, libicc.certify_field(field, threads=1))
 
+    def test_cells_that_fold_are_listed_first(self):
+        values = np.zeros((9, 9, 2))
+        values[:4] = np.nan
+        values[6, 6] = [5, 0]
+        report = libicc.certify_field(values, most=3)
+        self.assertEqual([kind for _, kind in report["cells"]], ["folded", "folded", "missing"])
+        self.assertEqual(report["cells"][0], ((6, 5), "folded"))
+        self.assertEqual(len(libicc.certify_field(values)["cells"]), 2 + 4 * 8)
+
     def test_a_fold_in_the_inside_of_a_cell_is_found(self):
         # Positive at all eight corners, negative between.
         values = np.array([-2, -2, -3, -3, -9, 9, 3, 7, 8, -5, -5, -7, -4, 0, 6, 1, -1, -3, 6, 2, -1, 3, 9, 6]) / 16
