@@ -178,4 +178,22 @@ test('the view: squares, distortion, triangles; the place under the pointer; a p
   assert.equal(fs.readFileSync(saved).readUInt32BE(16), 640);
 });
 
+test('pins are saved and come back', async () => {
+  await figure('figure');
+  const { pins, targets } = await state(), folder = `${SHOTS}/saved-pins`, cdp = await browser.target().createCDPSession();
+  fs.rmSync(folder, { recursive: true, force: true });
+  await cdp.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
+  await page.click('#save-pins');
+  const saved = `${folder}/pins.json`;
+  for (let k = 0; k < 100 && !fs.existsSync(saved); ++k) await new Promise((done) => { setTimeout(done, 50); });
+  const text = fs.readFileSync(saved, 'utf8');
+  assert.deepEqual(JSON.parse(text), { pins: pins.map((at, i) => ({ at, to: targets[i] })) });
+  await page.click('#back');
+  await settle(page);
+  await page.evaluate((content) => studio.modes.pins.take(new File([content], 'pins.json')), text);
+  await settle(page);
+  assert.deepEqual([(await state()).pins, (await state()).targets], [pins, targets]);
+  await certified();
+});
+
 test('no page error, no request', () => assert.deepEqual(wrong, []));
