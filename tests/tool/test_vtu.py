@@ -201,7 +201,7 @@ def require_refusals():
             ("UnstructuredGrid", "PolyData", "a VTK file in XML", "ParaView")):
         spoilt(text.replace(old, new, 1), *words)
     lzma = Form("raw", True).file(pieces_of(POINTS)).replace(b"vtkZLibDataCompressor", b"vtkLZMADataCompressor")
-    spoilt(lzma, "compressed by 'vtkLZMADataCompressor'", "ZLib")
+    spoilt(lzma, "compressed by 'vtkLZMADataCompressor'", "ZLib", "python3 -m libicc")
     raw = Form("raw").file(pieces_of(POINTS))
     spoilt(raw.replace(b'Name="Points" NumberOfComponents="3" format="appended" offset="0"',
                        b'Name="Points" NumberOfComponents="3" format="appended" offset="999999"'), "offset '999999' where a whole number")

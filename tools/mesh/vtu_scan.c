@@ -77,13 +77,15 @@ static bool read_head(scan *s)
     s->v->is_little = !tag_has(&s->tag, "byte_order", 10, "BigEndian");
     s->v->n_word = tag_has(&s->tag, "header_type", 11, "UInt64") ? 8 : 4;
     s->v->is_zipped = tag_has(&s->tag, "compressor", 10, "vtkZLibDataCompressor");
+    bool is_lzma = tag_has(&s->tag, "compressor", 10, "vtkLZMADataCompressor");
     char shown[32];
     return !is_named || s->v->is_zipped ||
            spoilt(
                s->wrong, line_of_tag(s),
                "it is compressed by '%s'; libicc reads vtkZLibDataCompressor, and ParaView saves "
-               "it (Compressor Type: ZLib)",
-               shown_value(shown, compressor, end));
+               "it (Compressor Type: ZLib)%s",
+               shown_value(shown, compressor, end),
+               is_lzma ? "; 'python3 -m libicc' takes it as it is" : "");
 }
 
 static bool add_piece(scan *s)

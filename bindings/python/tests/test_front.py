@@ -139,6 +139,23 @@ def test_meshes(folder, capsys):
     assert not Path("none.vtu").exists()
 
 
+def test_vectors(folder, capsys):
+    meshio = pytest.importorskip("meshio")
+    points, faces = cube(8.0)
+    turn = np.array([[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]])
+    write_obj(folder / "C.obj", points @ (turn @ np.diag([2.0, 1, 1])).T, faces)
+    nodes = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4.0]])
+    vectors = np.array([[1, 0, 0], [0, 2, 0], [3, 0, 4], [np.nan, 0, 0]])
+    meshio.write("in.vtu", meshio.Mesh(nodes, [("tetra", [[0, 1, 2, 3]])], {"v": vectors, "s": nodes[:, 0]}, {"c": [vectors[:1]]}))
+    assert run("mesh", "-s", "A.obj", "-t", "C.obj", "--rotate-vectors", "in.vtu", "out.vtk") == 0
+    moved = meshio.read("out.vtk")
+    assert np.allclose(moved.point_data["v"][:3], vectors[:3] @ turn.T) and np.isnan(moved.point_data["v"][3, 0])
+    assert np.allclose(moved.cell_data["c"][0], vectors[:1] @ turn.T) and np.array_equal(moved.point_data["s"].ravel(), nodes[:, 0])
+    assert "5 vectors in 2 arrays: 5 rotated, 0 not rotated" in capsys.readouterr().out
+    assert run("mesh", "-s", "A.obj", "-t", "C.obj", "in.vtu", "plain.vtu") == 0
+    assert np.array_equal(meshio.read("plain.vtu").point_data["v"], vectors, equal_nan=True)
+
+
 def test_layers(folder):
     geopandas = pytest.importorskip("geopandas")
     from shapely.geometry import Point, Polygon

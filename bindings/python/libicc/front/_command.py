@@ -54,6 +54,8 @@ def _parser() -> argparse.ArgumentParser:
             one.add_argument("--background", metavar="RRGGBB[AA]", help="colour of uncovered pixels")
         if name == "mesh":
             one.add_argument("--untangle", action="store_true", help="move inner vertices until no cell is inverted")
+            one.add_argument("--rotate-vectors", action="store_true",
+                             help="rotate the vectors at points and in cells with the map; they keep their length")
     _options(commands.add_parser("check", help="check cages, and prove the map between them one-to-one"))
     match = commands.add_parser("match", help="pair two outlines or surfaces")
     _options(match, target_required=True)
@@ -114,7 +116,7 @@ def _move(args: Any) -> int:
     thing = formats.read(args.input, _MOVES[args.command][0])
     formats.format_of(args.output, (thing.kind,), write=True)
     mapping = _map(args)
-    for name, value in (("inverse", False), ("untangle", False)):
+    for name, value in (("inverse", False), ("untangle", False), ("rotate_vectors", False)):
         vars(args).setdefault(name, value)
     try:
         tally = thing.carry(mapping, args)

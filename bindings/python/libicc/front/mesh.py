@@ -15,6 +15,7 @@ import numpy as np
 
 from . import formats
 from ._tally import Tally
+from ._vectors import rotate
 from .formats import FileError, Format, use
 from .points import by_command
 
@@ -100,6 +101,7 @@ class Mesh:
             texts, n_bad, certified = [*texts, text], n_bad + bad, certified and sure and len(kinds) == 1
         n_others = sum(len(block.data) for block in self.mesh.cells) - sum(len(data) for _, _, data in kinds)
         texts += [f"{n_others} other cells carried"] if n_others else []
+        texts += [rotate(self.mesh, mapping, points[:, :dim])] if how.rotate_vectors else []
         used = np.zeros(len(points), bool)
         for block in self.mesh.cells:
             used[np.ravel(block.data)] = True
