@@ -292,6 +292,25 @@ def test_parts():
     comes_from(got, (62 - x, 30 - y), (38, 70), "the hand of one part")
 
 
+def test_outline():
+    """A picture without a transparent ground needs an outline. What is outside stays away."""
+    save("scene.png", [[pixel[:3] + [255] for pixel in row] for row in draw([((0, 0), (0, 0), 1)])], channels=3)
+    with open("outline.txt", "w", encoding="utf-8") as out:
+        out.write("40 20\n80 20\n80 60\n116 60\n116 80\n80 80\n80 130\n40 130\n")
+    write_pins("arm.json", [pin("head", (60, 30)), pin("foot", (60, 120)), pin("arm", (110, 70), (100, 20))])
+    run(0, "--pins", "arm.json", "--source", "outline.txt", "scene.png", "arm.png", "--json=report.json")
+    got = load("arm.png")
+    with open("report.json", encoding="utf-8") as file:
+        report = json.load(file)
+    x, y = report["corner"]
+    check(report["certified"] and report["pins_off"] == 0, "a drawn outline")
+    comes_from(got, (100 - x, 20 - y), (110, 70), "an arm in a drawn outline")
+    check(got[5 - y][5 - x][3] == 0 and pieces(got, True) == 1, "the outside is not transparent")
+    refused("--pins", "arm.json", "--source", "missing.txt", "scene.png", "no.png", says="missing.txt")
+    write_pins("far.json", [pin("far", (100, 120))])
+    refused("--pins", "far.json", "--source", "outline.txt", "scene.png", "no.png", says='pin "far" at 100, 120 is 20 pixels outside of the figure')
+
+
 def test_trouble():
     at = [pin(*p) for p in PINS]
     write_pins("good.json", at)
@@ -339,6 +358,7 @@ def main():
     test_growth()
     test_turns_and_bones()
     test_parts()
+    test_outline()
     test_trouble()
     if N_FAILED == 0:
         os.chdir("/")

@@ -42,6 +42,26 @@ static icc_status check_apart(const picture *p, double growth, const icc_env *en
     return status;
 }
 
+/* Takes the outline that the user has drawn, which may have holes. What is outside gets no place. */
+static int take_outline(figure *f, job *j)
+{
+    int result = job_read_plane(j, "pose --pins");
+    const cage *c = &j->cages[0];
+    if (result == DONE && (c->n == 0 || c->n_features > cage_count(c, ICC_FEATURE_HOLE)))
+        result = failed(j->args->source, 0,
+                        "the figure is one outline with holes; here are regions, lines or points");
+    if (result == DONE)
+        result = job_make_domains(j);
+    if (result != DONE)
+        return result;
+    f->parts = need(1, sizeof *f->parts);
+    f->n = 1;
+    f->parts[0].domain = j->made[0];
+    j->made[0] = NULL;
+    picture_widen(&f->picture, false, true);
+    return DONE;
+}
+
 /* Finds the outlines, and moves them outwards as far as they keep apart. */
 static int find_parts(figure *f, job *j, const char *name)
 {
@@ -49,11 +69,13 @@ static int find_parts(figure *f, job *j, const char *name)
     cage outlines = {.dim = 2};
     icc_error err = {.size = sizeof err, .index = -1};
     double growth = GROWTH;
+    if (j->args->source != NULL)
+        return take_outline(f, j);
     if (!picture_has_alpha(&f->picture))
         return failed(
             name, 0,
             "the picture has no transparent ground, so it has no outline; make its ground "
-            "transparent, or draw an outline for 'libicc fit --outline'");
+            "transparent, or give an outline with --source FILE");
     if (!cage_take_alpha(&outlines, &f->picture, 0, 0, &wrong)) {
         cage_free(&outlines);
         return failed(name, 0, "%s", wrong.text);
@@ -227,7 +249,7 @@ int figure_read(figure *out, job *j, const char *name, const control_points *pin
     if (result == DONE)
         result = find_pins(out, j, pins);
     if (result == DONE)
-        out->faint = find_faint(&out->picture);
+        out->faint = j->args->source == NULL ? find_faint(&out->picture) : 0;
     return result;
 }
 

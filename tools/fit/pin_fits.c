@@ -189,13 +189,14 @@ static void keep_residuals(pin_pose *p, const told *t, const icc_fit *fit)
     free(residuals);
 }
 
-/* A part without pins holds one vertex, and so everything stays. */
+/* A part without pins holds one vertex, and so everything stays. Then its cells may be as large as
+ * it is. */
 static icc_status create(icc_fit **out, pin_pose *p, const figure_part *part, const told *t,
                          icc_error *err)
 {
     static const uint32_t first[] = {0};
     double *corners = NULL;
-    const icc_fit_options options = {
+    icc_fit_options options = {
         .size = sizeof options, .model = ICC_FIT_ELASTIC, .reach = p->job.args->reach};
     icc_constraint held = {
         .size = sizeof held, .kind = ICC_CONSTRAINT_VERTICES, .n = 1, .vertices = first};
@@ -205,6 +206,9 @@ static icc_status create(icc_fit **out, pin_pose *p, const figure_part *part, co
         corners = need(info.n_vertices, 2 * sizeof *corners);
         icc_domain_get_boundary(part->domain, corners, NULL);
         held.target = corners;
+        for (size_t i = 1; i < info.n_vertices; i++)
+            options.cell = fmax(
+                options.cell, hypot(corners[2 * i] - corners[0], corners[2 * i + 1] - corners[1]));
     }
     icc_status status =
         icc_fit_create(out, part->domain, NULL, t->n > 0 ? t->n_constraints : 1,

@@ -153,11 +153,10 @@ static int check_operands(const args *a, const command *c)
     return DONE;
 }
 
-/* Pins need neither a shape nor handles, and nothing of their weights. */
+/* Pins need no handles, and nothing of their weights. */
 static int check_pins(const args *a, const command *c)
 {
-    const char *of_handles = a->source != NULL    ? "source"
-                             : a->handles != NULL ? "handles"
+    const char *of_handles = a->handles != NULL   ? "handles"
                              : a->pose != NULL    ? "pose"
                              : a->binding != NULL ? "binding"
                              : a->certified       ? "certified"

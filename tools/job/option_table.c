@@ -105,7 +105,16 @@ const option options[] = {
     {.name = "source",
      .letter = 's',
      .kind = OPTION_TEXT,
-     .commands = FOR_KERNEL,
+     .commands = FOR_POSE,
+     .offset = AT(source),
+     .value = "FILE",
+     .help = "the shape: text, GeoJSON, WKT or SVG; in space OBJ, OFF, PLY, STL or glTF. You can "
+             "leave it out if the handles' file holds the shape. With --pins: the outline of the "
+             "figure in a picture without a transparent ground"},
+    {.name = "source",
+     .letter = 's',
+     .kind = OPTION_TEXT,
+     .commands = FOR_WEIGHTS,
      .offset = AT(source),
      .value = "FILE",
      .help = "the shape: text, GeoJSON, WKT or SVG; in space OBJ, OFF, PLY, STL or glTF. You can "
