@@ -211,6 +211,9 @@ void attached_tell(const char *file, const mesh_carried *c)
     if (c->skins && c->why != NULL)
         note("%s: skins[%zu] stays as it is (joints and inverse bind matrices): %s", file, c->skin,
              c->why);
+    if (c->n_copies > 0)
+        note("%s: nodes draw one mesh at several places, so %zu %s", file, c->n_copies,
+             c->n_copies == 1 ? "copy of a mesh was made" : "copies of meshes were made");
     if (c->n_out > 0)
         note("%s: %zu of %zu joints have no image and stay where they are", file, c->n_out,
              c->n_joints);

@@ -72,13 +72,14 @@ static void list_primitives(glb *g)
 {
     const json_item *meshes = json_get(g->json, "meshes");
     size_t room = 0;
+    g->starts = need(json_size(meshes) + 1, sizeof *g->starts);
     for (const json_item *mesh = json_first(meshes); mesh != NULL; mesh = json_next(mesh)) {
         const json_item *x = json_first(json_get(mesh, "primitives"));
         for (; x != NULL; x = json_next(x)) {
             g->primitives = grow(g->primitives, &room, g->n_primitives + 1, sizeof *g->primitives);
-            g->primitives[g->n_primitives++] = (glb_primitive){x, g->n_meshes};
+            g->primitives[g->n_primitives++] = x;
         }
-        g->n_meshes++;
+        g->starts[++g->n_meshes] = g->n_primitives;
     }
 }
 
@@ -226,14 +227,14 @@ static bool number_sets(glb *g, problem *wrong)
 static bool find_positions(glb *g, problem *wrong)
 {
     for (size_t i = 0; i < g->n_primitives; i++)
-        if (!add_positions(g, g->primitives[i].json, wrong))
+        if (!add_positions(g, g->primitives[i], wrong))
             return false;
     return number_sets(g, wrong);
 }
 
-size_t glb_set_of(const glb *g, const glb_primitive *primitive)
+size_t glb_set_of(const glb *g, const json_item *primitive)
 {
-    const json_item *attributes = json_get(primitive->json, "attributes");
+    const json_item *attributes = json_get(primitive, "attributes");
     return g->set_of[(size_t)json_get(attributes, "POSITION")->number];
 }
 
@@ -255,6 +256,7 @@ void glb_close(glb *g)
     free(g->accessors);
     free(g->views);
     free(g->primitives);
+    free(g->starts);
     free(g->set_of);
     free(g->sets);
     *g = (glb){0};

@@ -44,11 +44,6 @@ typedef struct glb_vectors {
     glb_items items;
 } glb_vectors;
 
-typedef struct glb_primitive {
-    const json_item *json;
-    size_t mesh; /* its mesh's number */
-} glb_primitive;
-
 typedef struct glb {
     const char *text; /* borrowed */
     json_tree tree;
@@ -58,7 +53,8 @@ typedef struct glb {
     size_t n_accessors, n_views;
     const json_item **accessors, **views;
     size_t n_meshes, n_primitives;
-    glb_primitive *primitives;
+    const json_item **primitives; /* of all meshes, one after another */
+    size_t *starts;               /* of each mesh, and the end of all */
     size_t *set_of;      /* of an accessor that holds positions: its number among the sets below */
     size_t n_sets, room; /* in rising order in the file, without overlap */
     glb_positions *sets;
@@ -73,10 +69,14 @@ bool glb_find_items(const glb *g, const json_item *index, const char *of, glb_ki
                     size_t *accessor, glb_items *out, problem *wrong);
 
 /* The number of the positions of a primitive. */
-size_t glb_set_of(const glb *g, const glb_primitive *primitive);
+size_t glb_set_of(const glb *g, const json_item *primitive);
+
+/* Gives each place where nodes draw a mesh a mesh of its own. *text is the scene with *n_copies of
+ * them; free() it. NULL if there are none. False: see `wrong`. */
+bool glb_split(const glb *g, char **text, size_t *n, size_t *n_copies, problem *wrong);
 
 /* The affine maps (affine_map.h) by which nodes place each of the n_sets sets of positions; free()
- * them. NULL: see `wrong`. */
+ * them. Each set has one place, because the scene has been split. NULL: see `wrong`. */
 double (*glb_find_places(const glb *g, problem *wrong))[12];
 
 /* Finds all vectors; free() them. Directions that are not floats, or not one for each vertex, are

@@ -42,6 +42,10 @@ bool glb_skins_read(glb_skin **out, size_t *n, const glb *g, const glb_nodes *no
                     problem *wrong);
 void glb_skins_free(glb_skin *skins, size_t n);
 
+/* Finds how a node, or its skin, places its mesh. False: see `wrong`. */
+bool glb_place_node(const glb_nodes *nodes, const glb_skin *skins, size_t index, double out[12],
+                    problem *wrong);
+
 /* The skin of a node that draws a mesh, or NULL. */
 const glb_skin *glb_skin_of(const glb_skin *skins, const glb_node *node);
 

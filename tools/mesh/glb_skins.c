@@ -78,10 +78,11 @@ static bool check_users(const glb_nodes *nodes, size_t n_skins, problem *wrong)
 static void widen(double box[6], const glb *g, const glb_node *node)
 {
     const json_item *mesh = json_get(node->json, "mesh");
-    for (size_t i = 0; i < g->n_primitives; i++) {
-        if (!json_is(mesh, JSON_NUMBER) || (double)g->primitives[i].mesh != mesh->number)
-            continue;
-        const glb_items *items = &g->sets[glb_set_of(g, &g->primitives[i])].items;
+    bool good =
+        json_is(mesh, JSON_NUMBER) && mesh->number >= 0 && mesh->number < (double)g->n_meshes;
+    size_t which = good ? (size_t)mesh->number : g->n_meshes;
+    for (size_t i = g->starts[which]; good && i < g->starts[which + 1]; i++) {
+        const glb_items *items = &g->sets[glb_set_of(g, g->primitives[i])].items;
         for (size_t k = 0; k < 3 * items->n; k++) {
             size_t at = items->at + k / 3 * items->stride + 4 * (k % 3);
             double x = (double)little_endian_float(g->text + at);

@@ -119,7 +119,7 @@ glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wro
     *other = false;
     f.of = need(g->n_accessors, sizeof *f.of);
     for (size_t i = 0; i < g->n_primitives && good; i++)
-        good = find_all(&f, g->primitives[i].json);
+        good = find_all(&f, g->primitives[i]);
     free(f.of);
     if (!good)
         free(f.list);
@@ -151,7 +151,7 @@ static bool claim(bool *taken, size_t accessor, const glb_items *items, problem 
 static bool leaves_indices(const glb *g, const uint32_t *before, problem *wrong)
 {
     for (size_t i = 0; i < g->n_primitives; i++) {
-        const json_item *indices = json_get(g->primitives[i].json, "indices");
+        const json_item *indices = json_get(g->primitives[i], "indices");
         problem none;
         size_t accessor;
         glb_items x;
@@ -449,10 +449,12 @@ static void count_all(const carrier *c)
 /* Puts the changed text together. */
 static void take_text(mesh_file *m, const glb *g, edits *e, const char *text)
 {
+    char *before = m->own;
     m->own = gltf_join(e, text + g->json_at, g->json->end, text + g->json_end,
                        m->n_text - g->json_end, &m->n_text);
     m->text = m->own;
     m->carried = true;
+    free(before);
 }
 
 bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
@@ -473,6 +475,7 @@ bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh
                  .out = out,
                  .wrong = wrong};
     bool good = vectors != NULL || n == 0;
+    out->n_copies = m->n_copies;
     for (size_t i = 0; i < c.n_vectors; i++)
         c.of[vectors[i].accessor] = i + 1;
     if (good && mover == NULL)

@@ -35,6 +35,7 @@ typedef struct mesh_carried {
     size_t skin;                /* the first skin that stays, and why, or NULL */
     const char *why;
     size_t n_joints, n_out; /* joints that move; how many of them have no image and stay */
+    size_t n_copies;        /* meshes that are copies of others, at other places of a scene */
     mesh_rotated rotated;   /* mesh_vectors.h */
 } mesh_carried;
 

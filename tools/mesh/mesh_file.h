@@ -66,7 +66,7 @@ typedef struct mesh_part {
 typedef struct mesh_file {
     const char *text; /* borrowed, or `own` */
     size_t n_text;
-    char *own;    /* a copy of the text with changed normals and the like, or NULL */
+    char *own;    /* a copy of the text with changes, such as other normals, or NULL */
     bool carried; /* `own` is complete */
     size_t dim;
     size_t n_vertices;
@@ -89,6 +89,7 @@ typedef struct mesh_file {
     mesh_normals vertex_normals; /* of OBJ and PLY */
     size_t n_places;
     mesh_place *places; /* of glTF, in rising order */
+    size_t n_copies;    /* of glTF: meshes that were copied, because nodes draw them elsewhere */
     struct vtu *vtu;    /* the arrays of VTU (mesh/vtu.h), or NULL */
     size_t n_faces;
     size_t n_triangles;

@@ -162,9 +162,24 @@ static bool read_primitive(lines *r, const glb *g, const json_item *primitive)
 static bool read_faces(lines *r, const glb *g)
 {
     for (size_t i = 0; i < g->n_primitives; i++)
-        if (!read_primitive(r, g, g->primitives[i].json))
+        if (!read_primitive(r, g, g->primitives[i]))
             return false;
     return true;
+}
+
+/* Goes on with the scene in which each mesh has one place. */
+static bool split(mesh_file *m, glb *g, problem *wrong)
+{
+    char *text;
+    size_t n;
+    if (!glb_split(g, &text, &n, &m->n_copies, wrong))
+        return false;
+    if (text == NULL)
+        return true;
+    m->text = m->own = text;
+    m->n_text = n;
+    glb_close(g);
+    return glb_open(g, m->text, m->n_text, wrong);
 }
 
 bool mesh_read_glb(lines *r)
@@ -175,7 +190,7 @@ bool mesh_read_glb(lines *r)
     m->floats = true;
     m->n_spans = 0;
     r->line = 0;
-    bool good = glb_open(&g, m->text, m->n_text, r->wrong) &&
+    bool good = glb_open(&g, m->text, m->n_text, r->wrong) && split(m, &g, r->wrong) &&
                 glb_is_apart(&g, m->n_text, 0, NULL, r->wrong) && read_vertices(m, &g, r->wrong) &&
                 read_faces(r, &g);
     glb_close(&g);
