@@ -30,7 +30,9 @@ icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
                          "icc_fill_options.ratio is %g; it must be 0 or at "
                          "least 1.2",
                          given.ratio);
-    const iccp_fill_options own = {given.ratio == 0.0 ? ICCP_FILL_RATIO : given.ratio,
-                                   given.max_points == 0 ? UINT64_MAX : given.max_points};
+    const iccp_fill_options own = {.ratio = given.ratio == 0.0 ? ICCP_FILL_RATIO : given.ratio,
+                                   .max_points =
+                                       given.max_points == 0 ? UINT64_MAX : given.max_points,
+                                   .for_map = false};
     return iccp_end_domain(iccp_domain_fill(out, surface, &own, &full, err), out, &full, err);
 }

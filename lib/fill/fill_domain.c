@@ -221,10 +221,14 @@ static icc_status make(iccp_tets *m, iccp_constraints *s, const icc_domain *surf
     m->metric.on = false;
     if (status == ICC_OK)
         status = iccp_tets_clean_up(m, &stage[CLEAN_UP], err);
-    if (status == ICC_OK && options->ratio < HUGE_VAL)
-        status = iccp_tets_refine(m, s, options->ratio, options->max_points, &stage[REFINE], err);
+    const bool refine = options->ratio < HUGE_VAL, split = refine && !options->for_map;
+    const uint64_t n = m->points.n;
+    const uint64_t most =
+        options->max_points < UINT64_MAX - n ? n + options->max_points : UINT64_MAX;
+    if (status == ICC_OK && refine)
+        status = iccp_tets_refine(m, s, options, &stage[REFINE], err);
     if (status == ICC_OK)
-        status = iccp_tets_improve(m, &stage[IMPROVE], err);
+        status = iccp_tets_improve(m, split ? most : 0, &stage[IMPROVE], err);
     return status;
 }
 
@@ -255,4 +259,11 @@ icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
         iccp_tets_free(&m);
     }
     return status;
+}
+
+icc_status iccp_domain_fill_for_map(icc_domain **out, const icc_domain *surface,
+                                    const iccp_env *env, icc_error *err)
+{
+    static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX, true};
+    return iccp_domain_fill(out, surface, &options, env, err);
 }

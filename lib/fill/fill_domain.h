@@ -13,7 +13,8 @@
  * - star, ring, link: tetrahedra at a point, those around an edge, and the points opposite to it.
  * - cavity, rim: tetrahedra that a new point replaces, and the boundary of their space (insert.h).
  * - clean up: contract and smooth inner points (reshape.h, contract.h).
- * - refine: add inner points (inner_points.h). improve: flip and smooth (reshape.h).
+ * - refine: add inner points (inner_points.h). improve: flip and smooth (reshape.h,
+ *   place_search.h), and split nearly flat tetrahedra (slivers.h).
  * - metric: a linear map in which a stretched surface has the same extent in all directions
  *   (metric.h).
  *
@@ -21,7 +22,7 @@
  * - insert.h for the vertices. segments.h for edges, by flip.h, then points on them (split.c).
  * - facets.h for facets, and to remove the outside. facet_scan.h finds what pierces a facet.
  * - lift.h, with lifting.h for the facets of one point. reshape.h cleans up, inner_points.h
- *   refines, reshape.h improves, by flip.h; quality.h says what is better.
+ *   refines, reshape.h improves, by flip.h and slivers.h; quality.h says what is better.
  * - Exact signs of dyadic points: fixed.h.
  *
  * Invariants: every tetrahedron is positive by exact signs after every step. A step that fails
@@ -30,17 +31,14 @@
 #define ICCP_FILL_DOMAIN_H
 
 #include "domain/domain.h"
-
-/* Default of the ratio in icc_fill_options. */
-#define ICCP_FILL_RATIO 1.6
-
-typedef struct iccp_fill_options {
-    double ratio;
-    uint64_t max_points;
-} iccp_fill_options;
+#include "fill/fill_options.h"
 
 /* See icc_domain_fill(). Arguments have been checked. */
 icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
                             const iccp_fill_options *options, const iccp_env *env, icc_error *err);
+
+/* Fills a surface with the default ratio, for a map. */
+icc_status iccp_domain_fill_for_map(icc_domain **out, const icc_domain *surface,
+                                    const iccp_env *env, icc_error *err);
 
 #endif

@@ -14,13 +14,12 @@ typedef struct fill_job {
 icc_status iccp_fill_side(icc_domain **filled, const icc_domain *domain, size_t side,
                           const iccp_env *env, icc_error *err)
 {
-    static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
     if (domain->mesh != NULL) {
         *filled = iccp_domain_retain(domain);
         return ICC_OK;
     }
     *filled = NULL;
-    const icc_status status = iccp_domain_fill(filled, domain, &options, env, err);
+    const icc_status status = iccp_domain_fill_for_map(filled, domain, env, err);
     if (status != ICC_OK)
         return iccp_fail_side(err, status, (int32_t)side + 1);
     iccp_log(env, "%s: filled with %zu tetrahedra", side == 0 ? "source" : "target",

@@ -11,8 +11,8 @@
 #include "fill/insert.h"
 #include "fill/quality.h"
 
-/* In units of the local size: shorter edges count as this long; least distance of a new point from
- * the surface. */
+/* In units of the local size: shorter edges count as this long, for maps in tetrahedra with four
+ * corners on the surface and elsewhere; least distance of a new point from the surface. */
 static const double least_edge_4 = 0.38, least_edge = 0.6, least_height = 0.3;
 
 typedef struct bad {
@@ -22,7 +22,7 @@ typedef struct bad {
 
 typedef struct refinement {
     iccp_tets *m;
-    double ratio;
+    const iccp_fill_options *options;
     double *size; /* by point, n_sizes of them; 0: unknown */
     size_t n_sizes;
     bad *queue;
@@ -63,7 +63,7 @@ static double scale_of(const refinement *r, const iccp_tet *tet)
 {
     const iccp_points *const p = &r->m->points;
     double shortest = HUGE_VAL, size = HUGE_VAL;
-    bool on_surface = true;
+    bool on_surface = r->options->for_map;
     for (int i = 0; i < 4; ++i) {
         size = iccp_min(size, r->size[tet->v[i]]);
         on_surface &= tet->v[i] < p->n_given;
@@ -83,20 +83,23 @@ static bool is_bad(const refinement *r, uint32_t t, double centre[3], double *ba
     *scale = scale_of(r, tet);
     const bool proper = circumcentre(r->m, tet, centre, &radius);
     *badness = proper ? radius / *scale : HUGE_VAL;
-    return *badness > r->ratio;
+    return *badness > r->options->ratio;
 }
 
 /* Returns true if a point is too near to the corners of the tetrahedra in m->cavity, or to walls
- * there. A point nearer than `scale` would make an edge shorter than those that it repairs, and
- * refinement would go on until the whole inside were as fine as the finest edges allow. */
-static bool is_crowded(const iccp_tets *m, const double *x, double scale)
+ * there. In Delaunay tetrahedra, the circumcentre makes edges longer than `ratio` times those that
+ * it repairs. Other points must do the same. Otherwise refinement would go on until the whole
+ * inside were as fine as the finest edges allow. For maps, new edges may be as short as those. */
+static bool is_crowded(const refinement *r, const double *x, double scale)
 {
+    const iccp_tets *const m = r->m;
+    const double gap = r->options->for_map ? scale : r->options->ratio * scale;
     const iccp_points *const p = &m->points;
     for (size_t k = 0; k < m->cavity.n; ++k) {
         const iccp_tet *const tet = &m->tet[m->cavity.item[k]];
         for (int i = 0; i < 4; ++i) {
             const double *const corner = iccp_point(p, tet->v[i]);
-            if (iccp_square_distance(corner, x) < scale * scale)
+            if (iccp_square_distance(corner, x) < gap * gap)
                 return true;
             if (!iccp_is_wall_side(tet->across[i]))
                 continue;
@@ -148,7 +151,7 @@ static iccp_inserted insert_at(refinement *r, uint32_t t, const double *x, doubl
     if (at != ICCP_NO_TET) {
         if (!iccp_tets_holders(m, p, at))
             return ICCP_INSERT_MEMORY;
-        if (!is_crowded(m, place, scale))
+        if (!is_crowded(r, place, scale))
             done = iccp_tets_insert(m, p, m->cavity.n, true);
     }
     if (done == ICCP_INSERTED)
@@ -275,11 +278,11 @@ static bool make_sizes(refinement *r, const iccp_constraints *s)
     return done;
 }
 
-icc_status iccp_tets_refine(iccp_tets *m, const iccp_constraints *s, double ratio, uint64_t most,
-                            const iccp_env *env, icc_error *err)
+icc_status iccp_tets_refine(iccp_tets *m, const iccp_constraints *s,
+                            const iccp_fill_options *options, const iccp_env *env, icc_error *err)
 {
     enum { MOST_ROUNDS = 12, FEW = 5 };
-    refinement r = {.m = m, .ratio = ratio};
+    refinement r = {.m = m, .options = options};
     icc_status status = make_sizes(&r, s) ? ICC_OK : iccp_fail_memory(err);
     const uint32_t before = m->round;
     uint64_t n_all = 0;
@@ -289,7 +292,7 @@ icc_status iccp_tets_refine(iccp_tets *m, const iccp_constraints *s, double rati
         ++m->round;
         if (!fill_queue(&r, round == 0))
             status = iccp_fail_memory(err);
-        for (size_t k = 0; k < r.n_queue && n_all < most && status == ICC_OK; ++k) {
+        for (size_t k = 0; k < r.n_queue && n_all < options->max_points && status == ICC_OK; ++k) {
             if (k % 1024 == 0)
                 status = iccp_explain(err, iccp_progress(env, "mesh", (double)round / MOST_ROUNDS));
             if (status != ICC_OK || !iccp_tet_alive(m, r.queue[k].tet))

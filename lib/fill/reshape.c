@@ -6,7 +6,11 @@
 #include "base/minmax.h"
 #include "fill/contract.h"
 #include "fill/flip.h"
+#include "fill/place_search.h"
 #include "fill/quality.h"
+#include "fill/slivers.h"
+
+#include <string.h>
 
 /* Least improvement, and the quality from which tetrahedra are left alone. Quality 0.03 means
  * dihedral angles of some 10 degrees, and 0.1 some 18. */
@@ -85,61 +89,42 @@ static bool all_positive(const iccp_tets *m)
     return true;
 }
 
-typedef struct place {
-    double x[3], worst;
-} place;
+typedef struct mover {
+    iccp_tets *m;
+    uint32_t p;
+} mover;
 
-/* Moves the point to x if that is better than `best`, and then updates `best`. */
-static void try_place(iccp_tets *m, uint32_t p, const double *x, place *best)
+/* The worst quality at a point, whose star is in m->star, after a move. */
+static double move_worth(void *context, const double *x, double least)
 {
-    double *const now = m->points.x + 3 * (size_t)p;
-    for (int k = 0; k < 3; ++k)
-        now[k] = x[k];
-    iccp_points_snap(&m->points, now);
-    const double worst = worst_at(m, best->worst);
-    if (worst > best->worst && all_positive(m))
-        *best = (place){{now[0], now[1], now[2]}, worst};
+    const mover *const c = context;
+    memcpy(c->m->points.x + 3 * (size_t)c->p, x, 3 * sizeof *x);
+    const double worst = worst_at(c->m, least);
+    return worst > least && all_positive(c->m) ? worst : -HUGE_VAL;
 }
 
-/* Tries the middle of the link, then searches along 14 directions in shrinking steps. */
 bool iccp_smooth_point(iccp_tets *m, uint32_t p)
 {
     double *const now = m->points.x + 3 * (size_t)p;
-    double middle[3] = {0}, nearest = HUGE_VAL, x[3];
+    double middle[3] = {0}, nearest = HUGE_VAL;
     if (!iccp_tets_star(m, p))
         return false;
-    place best = {{now[0], now[1], now[2]}, worst_at(m, -HUGE_VAL)};
-    const double before = best.worst;
-    const place from = best;
-    best.worst += gain * fabs(before);
+    const double before = worst_at(m, -HUGE_VAL), least = before + gain * fabs(before);
+    iccp_place best = {{now[0], now[1], now[2]}, least};
     for (size_t k = 0; k < m->star.n; ++k)
         for (int c = 0; c < 4; ++c) {
             const double *const y = iccp_point(&m->points, m->tet[m->star.item[k]].v[c]);
             if (m->tet[m->star.item[k]].v[c] == p)
                 continue;
-            nearest = iccp_min(nearest, iccp_square_distance(y, from.x));
+            nearest = iccp_min(nearest, iccp_square_distance(y, now));
             for (int i = 0; i < 3; ++i)
                 middle[i] += y[i] / (3.0 * (double)m->star.n);
         }
-    for (int half = 0; half < 2; ++half) {
-        for (int i = 0; i < 3; ++i)
-            x[i] = from.x[i] + (half != 0 ? 0.5 : 1.0) * (middle[i] - from.x[i]);
-        try_place(m, p, x, &best);
-    }
-    for (int step = 0; step < 3; ++step) {
-        const double length = 0.3 * sqrt(nearest) / (double)(1 << step);
-        const place centre = best;
-        for (int d = 0; d < 14; ++d) {
-            for (int i = 0; i < 3; ++i)
-                x[i] = centre.x[i] + length * (d < 8 ? 0.577 * ((d >> i & 1) != 0 ? 1.0 : -1.0)
-                                               : (d - 8) / 2 == i ? ((d & 1) != 0 ? 1.0 : -1.0)
-                                                                  : 0.0);
-            try_place(m, p, x, &best);
-        }
-    }
-    for (int i = 0; i < 3; ++i)
-        now[i] = best.x[i];
-    if (!(best.worst > before + gain * fabs(before)))
+    mover context = {m, p};
+    const iccp_place_measure by = {move_worth, &context};
+    iccp_search_place(&m->points, &by, middle, nearest, &best);
+    memcpy(now, best.x, sizeof best.x);
+    if (!(best.worth > least))
         return false;
     for (size_t k = 0; k < m->star.n; ++k)
         for (int c = 0; c < 4; ++c)
@@ -188,7 +173,7 @@ icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err)
     return ICC_OK;
 }
 
-icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err)
+icc_status iccp_tets_improve(iccp_tets *m, uint64_t most, const iccp_env *env, icc_error *err)
 {
     enum { ROUNDS = 4 };
     for (int round = 0; round < ROUNDS; ++round) {
@@ -198,6 +183,8 @@ icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err)
             return status;
         ++m->round;
         flip_all(m);
+        if (round > 0)
+            iccp_split_slivers(m, most);
         const uint32_t stamp = stamp_bad(m);
         for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)
             if (m->tet_of[p] != ICCP_NO_TET && m->seen[p] == stamp && iccp_point_touched(m, p))

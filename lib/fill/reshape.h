@@ -15,7 +15,8 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p);
  * not where they give a good shape. */
 icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err);
 
-/* Makes some rounds of flips and smoothing. */
-icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err);
+/* Makes some rounds of flips and smoothing. Splits slivers as long as there are fewer than `most`
+ * points in all. */
+icc_status iccp_tets_improve(iccp_tets *m, uint64_t most, const iccp_env *env, icc_error *err);
 
 #endif

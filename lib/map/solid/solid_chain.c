@@ -43,13 +43,12 @@ typedef struct chain {
 static icc_status make_body(icc_domain **body, const icc_domain *solid, bool fill,
                             const iccp_env *env)
 {
-    static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
     icc_domain *surface;
     icc_status status =
         iccp_domain_create(&surface, 3, solid->features->n_outer, solid->given,
                            solid->features->n_outer_facets, solid->facets, env, NULL);
     if (status == ICC_OK && fill) {
-        status = iccp_domain_fill(body, surface, &options, env, NULL);
+        status = iccp_domain_fill_for_map(body, surface, env, NULL);
         iccp_domain_release(surface);
     } else if (status == ICC_OK)
         *body = surface;

@@ -271,13 +271,12 @@ static icc_status splice(iccp_solid_map *map, pocket *p, const icc_domain *befor
 static icc_status fill(icc_domain **filled, const pocket *p, const double *vertices,
                        const iccp_env *env)
 {
-    static const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
     icc_domain *surface = NULL;
     *filled = NULL;
     icc_status status =
         iccp_domain_create(&surface, 3, p->n_rim, vertices, p->n_faces, p->faces, env, NULL);
     if (status == ICC_OK)
-        status = iccp_domain_fill(filled, surface, &options, env, NULL);
+        status = iccp_domain_fill_for_map(filled, surface, env, NULL);
     iccp_domain_release(surface);
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
