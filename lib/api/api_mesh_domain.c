@@ -16,12 +16,11 @@ icc_status icc_domain_create_mesh(icc_domain **out, const icc_mesh *mesh, size_t
     icc_mesh m;
     icc_status status = iccp_begin(&full, env, missing, err);
     if (status == ICC_OK)
-        status = iccp_read_mesh(&m, mesh, err);
+        status = iccp_read_solid_mesh(&m, mesh, err);
     if (status == ICC_OK)
         status = iccp_check_counts(m.n_vertices, m.vertices, n_facets, facets, err);
     if (status != ICC_OK)
         return status;
-    return iccp_end_domain(iccp_domain_create_mesh(out, m.dim, m.n_vertices, m.vertices, m.n_cells,
-                                                   m.cells, n_facets, facets, &full, err),
-                           out, &full, err);
+    return iccp_end_domain(iccp_domain_create_mesh(out, &m, n_facets, facets, &full, err), out,
+                           &full, err);
 }

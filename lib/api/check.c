@@ -77,8 +77,6 @@ static icc_status read_mesh(icc_mesh *full, const icc_mesh *mesh,
     if (full->n_cells == 0 || full->n_cells > ICCP_MAX_COUNT)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu simplices; there must be 1 to %zu",
                          full->n_cells, ICCP_MAX_COUNT);
-    if (full->regions != NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "icc_mesh.regions are not supported");
     for (size_t cell = 0; cell < full->n_cells; ++cell)
         if (!is_taken(full, cell))
             return iccp_fail_at(err, ICC_ERR_UNSUPPORTED, ICC_ITEM_SIMPLEX, (int64_t)cell,
@@ -86,14 +84,30 @@ static icc_status read_mesh(icc_mesh *full, const icc_mesh *mesh,
     return ICC_OK;
 }
 
+static icc_status refuse_regions(icc_status status, const icc_mesh *mesh, icc_error *err)
+{
+    return status != ICC_OK || mesh->regions == NULL
+               ? status
+               : iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                           "icc_mesh.regions are for icc_domain_create_mesh() in 3-D; here they "
+                           "must be NULL");
+}
+
 icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
 {
-    return read_mesh(full, mesh, is_simplex, "simplex", err);
+    return refuse_regions(read_mesh(full, mesh, is_simplex, "simplex", err), full, err);
+}
+
+icc_status iccp_read_solid_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
+{
+    const icc_status status = read_mesh(full, mesh, is_simplex, "simplex", err);
+    return status == ICC_OK && full->dim == 3 ? status : refuse_regions(status, full, err);
 }
 
 icc_status iccp_read_faces(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
 {
-    return read_mesh(full, mesh, is_face, "triangle or quadrilateral", err);
+    return refuse_regions(read_mesh(full, mesh, is_face, "triangle or quadrilateral", err), full,
+                          err);
 }
 
 icc_status iccp_size_mesh(double **vertices, uint32_t **cells, icc_mesh *mesh, int32_t dim,

@@ -44,6 +44,9 @@ icc_status iccp_check_counts(size_t n_vertices, const double *vertices, size_t n
  * vertex and no index. */
 icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err);
 
+/* Like iccp_read_mesh(). In space the mesh may have regions. */
+icc_status iccp_read_solid_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err);
+
 /* Like iccp_read_mesh(). In the plane the mesh may have quadrilaterals, too. */
 icc_status iccp_read_faces(icc_mesh *full, const icc_mesh *mesh, icc_error *err);
 

@@ -211,9 +211,13 @@ static icc_status read_mesh(iccp_blob *b, icc_domain **domain, int32_t dim, cons
     parts p = {0};
     visit_mesh(b, (size_t)dim, &p, NULL);
     icc_status status = b->status;
+    const icc_mesh mesh = {.dim = dim,
+                           .n_vertices = p.n_points,
+                           .vertices = p.points,
+                           .n_cells = p.n_simplices,
+                           .cells = p.corners};
     if (status == ICC_OK)
-        status = iccp_domain_create_mesh(domain, dim, p.n_points, p.points, p.n_simplices,
-                                         p.corners, p.n_facets, p.facets, env, NULL);
+        status = iccp_domain_create_mesh(domain, &mesh, p.n_facets, p.facets, env, NULL);
     if (status == ICC_OK && !keeps_order((*domain)->mesh, p.n_points, p.corners))
         status = ICC_ERR_FORMAT;
     free_parts(&p, &env->memory);

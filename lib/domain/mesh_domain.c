@@ -4,7 +4,10 @@
 #include "domain/mesh_domain.h"
 
 #include "base/error.h"
+#include "domain/mesh_regions.h"
 #include "domain/simplicial.h"
+#include "domain/solid_domain.h"
+#include "domain/solid_mesh.h"
 #include "geometry/tuples.h"
 
 #include <string.h>
@@ -186,35 +189,16 @@ static icc_status check_frame(const iccp_frame *frame, const icc_domain *domain,
     return iccp_fail(err, ICC_ERR_BOUNDARY, "a vertex lies outside the boundary of the mesh");
 }
 
-icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
-                                   const double *vertices, size_t n_simplices,
-                                   const uint32_t *simplices, size_t n_facets,
-                                   const uint32_t *facets, const iccp_env *env, icc_error *err)
+/* Makes a domain of a mesh that was read, with the boundary of these points and facets. Takes over
+ * the mesh, also if it fails. */
+static icc_status create_plain(icc_domain **out, iccp_simplices *mesh, const iccp_frame *frame,
+                               const double *points, const uint32_t *facets, const iccp_env *env,
+                               icc_error *err)
 {
-    iccp_simplices *mesh;
-    iccp_frame frame;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){2, 1}, env);
-    *out = NULL;
-    icc_status status = iccp_mesh_read(&mesh, &frame, (size_t)dim, n_vertices, vertices,
-                                       n_simplices, simplices, n_facets, facets, &part[0], err);
+    icc_status status = iccp_domain_create(out, (int32_t)mesh->dim, mesh->n_boundary, points,
+                                           mesh->n_facets, facets, env, err);
     if (status == ICC_OK)
-        status = iccp_simplices_check_shape(mesh, err);
-    if (status != ICC_OK) {
-        iccp_simplices_free(mesh);
-        return status;
-    }
-    double *points = list_points(mesh, vertices);
-    uint32_t *own = list_facets(mesh, facets);
-    if (points == NULL || own == NULL)
-        status = iccp_fail_memory(err);
-    if (status == ICC_OK)
-        status = iccp_domain_create(out, dim, mesh->n_boundary, points, mesh->n_facets, own,
-                                    &part[1], err);
-    if (status == ICC_OK)
-        status = check_frame(&frame, *out, err);
-    iccp_free(&env->memory, points);
-    iccp_free(&env->memory, own);
+        status = check_frame(frame, *out, err);
     if (status == ICC_OK)
         (*out)->mesh = mesh;
     else {
@@ -222,5 +206,70 @@ icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_verti
         iccp_domain_release(*out);
         *out = NULL;
     }
+    return status;
+}
+
+/* Does the same with surfaces between regions. */
+static icc_status create_divided(icc_domain **out, iccp_simplices *mesh, const iccp_frame *frame,
+                                 const iccp_outer *outer, const iccp_region_surfaces *surfaces,
+                                 const iccp_env *env, icc_error *err)
+{
+    icc_domain *solid;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    icc_status status =
+        iccp_domain_create_solid(&solid, outer, surfaces->n, surfaces->features, &part[0], err);
+    if (status == ICC_OK)
+        status = check_frame(frame, solid, err);
+    if (status == ICC_OK)
+        status = iccp_domain_create_solid_mesh(out, solid, mesh, &part[1], err);
+    else
+        iccp_simplices_free(mesh);
+    iccp_domain_release(solid);
+    return status;
+}
+
+/* Takes over the mesh, also if it fails. */
+static icc_status create(icc_domain **out, iccp_simplices *mesh, const iccp_frame *frame,
+                         const icc_mesh *given, const uint32_t *facets, const iccp_env *env,
+                         icc_error *err)
+{
+    iccp_region_surfaces surfaces = {.memory = mesh->memory};
+    icc_status status = ICC_OK;
+    double *points = list_points(mesh, given->vertices);
+    uint32_t *own = list_facets(mesh, facets);
+    if (points == NULL || own == NULL)
+        status = iccp_fail_memory(err);
+    if (status == ICC_OK && given->regions != NULL)
+        status = iccp_region_surfaces_create(&surfaces, mesh, given->regions, given->vertices, err);
+    const iccp_outer outer = {mesh->n_boundary, mesh->n_facets, points, own};
+    if (status != ICC_OK)
+        iccp_simplices_free(mesh);
+    else if (surfaces.n > 0)
+        status = create_divided(out, mesh, frame, &outer, &surfaces, env, err);
+    else
+        status = create_plain(out, mesh, frame, points, own, env, err);
+    iccp_region_surfaces_free(&surfaces);
+    iccp_free(&env->memory, points);
+    iccp_free(&env->memory, own);
+    return status;
+}
+
+icc_status iccp_domain_create_mesh(icc_domain **out, const icc_mesh *mesh, size_t n_facets,
+                                   const uint32_t *facets, const iccp_env *env, icc_error *err)
+{
+    iccp_simplices *own;
+    iccp_frame frame;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){2, 1}, env);
+    *out = NULL;
+    icc_status status =
+        iccp_mesh_read(&own, &frame, (size_t)mesh->dim, mesh->n_vertices, mesh->vertices,
+                       mesh->n_cells, mesh->cells, n_facets, facets, &part[0], err);
+    if (status == ICC_OK)
+        status = iccp_simplices_check_shape(own, err);
+    if (status == ICC_OK)
+        return create(out, own, &frame, mesh, facets, &part[1], err);
+    iccp_simplices_free(own);
     return status;
 }

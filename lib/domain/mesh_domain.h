@@ -15,9 +15,7 @@ icc_status iccp_mesh_read(iccp_simplices **out, iccp_frame *frame, size_t dim, s
 
 /* See icc_domain_create_mesh(). The caller has checked arguments for NULL, the range of dim and of
  * the counts. */
-icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
-                                   const double *vertices, size_t n_simplices,
-                                   const uint32_t *simplices, size_t n_facets,
+icc_status iccp_domain_create_mesh(icc_domain **out, const icc_mesh *mesh, size_t n_facets,
                                    const uint32_t *facets, const iccp_env *env, icc_error *err);
 
 #endif

@@ -185,9 +185,13 @@ static icc_status finish(icc_domain **out, iccp_tets *m, iccp_constraints *s,
         status = mesh == NULL ? iccp_fail_memory(err)
                               : iccp_domain_create_solid_mesh(out, surface, mesh, env, err);
     } else if (status == ICC_OK) {
+        const icc_mesh mesh = {.dim = 3,
+                               .n_vertices = f.n_points,
+                               .vertices = f.points,
+                               .n_cells = f.n_tets,
+                               .cells = f.corners};
         iccp_constraints_free(s);
-        status = iccp_domain_create_mesh(out, 3, f.n_points, f.points, f.n_tets, f.corners,
-                                         surface->n_facets, surface->facets, env, err);
+        status = iccp_domain_create_mesh(out, &mesh, surface->n_facets, surface->facets, env, err);
     }
     free_finished(&f);
     return status;

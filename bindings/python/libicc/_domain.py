@@ -169,13 +169,16 @@ class Domain(Handle):
 
     @classmethod
     def from_mesh(cls, vertices: ArrayLike, simplices: ArrayLike, facets: Optional[ArrayLike] = None, *,
-                  progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Domain":
+                  regions: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
+                  threads: Optional[int] = None) -> "Domain":
         """Makes a domain with a conforming mesh of its inside. Method foliation works on it in every dimension.
 
         Args:
             vertices: (n, dim)
             simplices: (m, dim + 1) vertex indices
             facets: (k, dim) vertex indices of the boundary, in any order; or None
+            regions: a number for each tetrahedron, or None. The surfaces between different numbers become features of
+                kind "region", which a `Map` keeps; see `mesh_regions`
         """
         vertices = np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
@@ -184,6 +187,11 @@ class Domain(Handle):
         simplices = indices(simplices, dim + 1, "simplices")
         facets = None if facets is None else indices(facets, dim, "facets")
         mesh = mesh_of(vertices, simplices)
+        if regions is not None:
+            numbers = np.ascontiguousarray(regions, dtype=np.int32)
+            if numbers.shape != (len(simplices),):
+                raise ValueError(f"regions must have the shape ({len(simplices)},), not {numbers.shape}")
+            mesh.regions = address(numbers)
         return cls._wrap(create(lib.domain_create_mesh, ctypes.addressof(mesh), 0 if facets is None else len(facets),
                                 address(facets), progress=progress, threads=threads))
 

@@ -61,6 +61,14 @@ def test_regions_of_a_mesh():
     vertices, _, simplices = mapping.mesh()
     a, b, c, d = vertices[simplices[mapping.mesh_regions() == 1]].transpose(1, 0, 2)
     assert np.linalg.det(np.stack([b - a, c - a, d - a], axis=1)).sum() / 6 == pytest.approx(4 / 3 * 0.027)
+    filled = body.filled()
+    again = libicc.Domain.from_mesh(*filled.mesh, regions=5 - 3 * filled.mesh_regions.astype(int))
+    assert again.info.n_regions == 1 and again.info.n_features == 1
+    assert again.mesh_regions.tolist() == filled.mesh_regions.tolist()
+    with pytest.raises(ValueError, match="regions must have the shape"):
+        libicc.Domain.from_mesh(*filled.mesh, regions=[1])
+    with pytest.raises(libicc.BoundaryError, match="touch"):
+        libicc.Domain.from_mesh(*filled.mesh, regions=range(len(filled.mesh[1])))
     curves = libicc.Map([[0, 0], [1, 0], [0, 1]], [[0, 0], [1, 0], [0, 1]], kind="curves")
     with pytest.raises(libicc.UnsupportedError, match="a curve map has no mesh"):
         curves.mesh_regions()

@@ -377,7 +377,8 @@ pub struct icc_mesh {
     /// VTK's types of the n_cells cells, or NULL. Only simplices are supported, 5 in 2-D and 10 in 3-D, and
     /// quadrilaterals, 9, by `icc_fit_create()`. Other types give `ICC_ERR_UNSUPPORTED`
     pub types: *const u8,
-    /// reserved: NULL. Anything else gives `ICC_ERR_UNSUPPORTED`
+    /// For `icc_domain_create_mesh()` in 3-D: a number for each of the n_cells cells. Otherwise NULL, or the
+    /// call gives `ICC_ERR_UNSUPPORTED`
     pub regions: *const i32,
 }
 sized!(icc_mesh);
@@ -1533,6 +1534,13 @@ extern "C" {
     ///
     /// So the simplices fill the domain and do not overlap. Vertices that belong to no simplex are ignored.
     ///
+    /// *Regions.* If `icc_mesh.regions` gives the cells different numbers, the facets between cells of
+    /// different numbers become features of kind `ICC_FEATURE_REGION`, and a map keeps them. Each connected
+    /// part of a number but the outermost one is the inside of a region. The regions come in the order of
+    /// their numbers. `icc_domain_get_regions()` then has the numbers of the features, and
+    /// `icc_domain_get_mesh()` has the cells in your order. The surfaces must be closed and touch neither one
+    /// another nor the boundary.
+    ///
     /// - `out` (out): the domain; owned by the caller
     /// - `mesh`: the mesh, of dimension 2..`ICC_MAX_DIM`
     /// - `n_facets`: number of facets of the boundary; ignored if `facets` is NULL
@@ -1544,7 +1552,8 @@ extern "C" {
     /// Returns `ICC_OK`, or
     ///
     /// - `ICC_ERR_BOUNDARY` if a simplex is flat or lists a vertex twice or one that does not exist; if three
-    ///   simplices share a facet, or two lie on one side of it; or if `facets` are not the boundary
+    ///   simplices share a facet, or two lie on one side of it; if `facets` are not the boundary; or if a
+    ///   surface between regions touches another one or the boundary
     /// - `ICC_ERR_TOPOLOGY` if the mesh has several pieces, or holes other than in 3-D
     /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
     ///
