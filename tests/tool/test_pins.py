@@ -275,6 +275,18 @@ def test_turns_and_bones():
     check(report["certified"] and report["pins_off"] == 0, "a bone")
     for k in range(5):
         comes_from(got, (46 - 26 * k / 4, 56 - 26 * k / 4), (46 - 28 * k / 4, 58 + 23 * k / 4), "a bone")
+    # An arm that turns by 140 degrees keeps its length on the way.
+    swung = [pin("shoulder", (48, 58)), pin("elbow", (32, 70), (30, 48)), pin("hand", (16, 82), (44, 34)), pin("belly", (60, 84)), pin("foot", (43, 124))]
+    _, report = pose(swung, "hero.png", "swing.png", "--frames", "4", "--spine", "swing.json", bones=[[1, 2], [0, 1]])
+    with open("swing.json", encoding="utf-8") as file:
+        skeleton = json.load(file)
+    rest = {bone["name"]: (bone.get("x", 0), bone.get("y", 0)) for bone in skeleton["bones"]}
+    moves = {name: bone["translate"] for name, bone in skeleton["animations"]["pose"]["bones"].items()}
+    check(report["certified"] and report["pins_off"] == 0, "an arm that swings")
+    for a, b, last in (("shoulder", "elbow", math.dist((48, 58), (30, 48))), ("elbow", "hand", math.dist((30, 48), (44, 34)))):
+        lengths = [math.dist([r + m[c] for r, c in zip(rest[a], "xy")], [r + n[c] for r, c in zip(rest[b], "xy")]) for m, n in zip(moves[a], moves[b])]
+        first = math.dist(rest[a], rest[b])
+        check(all(abs(l - (first + k / 4 * (last - first))) < 1e-6 for k, l in enumerate(lengths)), f"lengths of a bone: {lengths}")
 
 
 def test_parts():

@@ -3,6 +3,7 @@
 #include "fit/pin_pose.h"
 
 #include "base/allocate.h"
+#include "fit/pin_path.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,18 +125,20 @@ static void told_free(told *t)
     free(t->constraints);
 }
 
-/* Targets at a share of the way: pins move straight, and what is around them turns evenly. */
+/* Targets at a share of the way. What is around pins turns evenly. */
 static void set_targets(told *t, double share)
 {
+    double *places = need(t->pins->n, 2 * sizeof *places);
+    pins_places(places, t->pins, share);
     for (size_t i = 0; i < t->n; i++) {
-        const double *from = t->pins->from + 2 * t->pin_of[i], *to = t->pins->to + 2 * t->pin_of[i];
+        const double *from = t->pins->from + 2 * t->pin_of[i], *to = places + 2 * t->pin_of[i];
         double turn = t->pins->turns[t->pin_of[i]];
         double angle = isnan(turn) ? 0 : share * turn * acos(-1) / 180;
         double x = t->source[2 * i] - from[0], y = t->source[2 * i + 1] - from[1];
-        t->target[2 * i] = (1 - share) * from[0] + share * to[0] + cos(angle) * x - sin(angle) * y;
-        t->target[2 * i + 1] =
-            (1 - share) * from[1] + share * to[1] + sin(angle) * x + cos(angle) * y;
+        t->target[2 * i] = to[0] + cos(angle) * x - sin(angle) * y;
+        t->target[2 * i + 1] = to[1] + sin(angle) * x + cos(angle) * y;
     }
+    free(places);
 }
 
 /* ------------------------------------------------------------------ fits */
@@ -225,6 +228,8 @@ static size_t steps_of(const pin_pose *p)
     for (size_t i = 0; i < p->pins.n; i++)
         if (!isnan(p->pins.turns[i]))
             most = fmax(most, fabs(p->pins.turns[i]));
+    for (size_t i = 0; i < p->pins.n_bones; i++)
+        most = fmax(most, fabs(bone_turn(&p->pins, i)) * 180 / acos(-1));
     return (size_t)ceil(fmax(1, most / (MOST_TURN * (double)(p->n_keys - 1))));
 }
 

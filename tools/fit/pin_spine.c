@@ -7,6 +7,7 @@
 
 #include "base/allocate.h"
 #include "base/system.h"
+#include "fit/pin_path.h"
 #include "job/call_files.h"
 
 #include <math.h>
@@ -283,12 +284,12 @@ static void write_skins(spine *s)
     json_close(j, ']');
 }
 
-/* Bones go straight to the places of their pins, and turn as these do. */
-static void write_bone_timelines(spine *s, size_t i)
+/* Bones go along with their pins, and turn as these do. `ways`: the places of all pins at all keys. */
+static void write_bone_timelines(spine *s, const double *ways, size_t i)
 {
     json *j = &s->json;
     const control_points *pins = &s->p->pins;
-    const double *from = pins->from + 2 * i, *to = pins->to + 2 * i;
+    const double *from = pins->from + 2 * i;
     const bool turns = !isnan(pins->turns[i]);
     char name[96];
     bone_name(name, pins, i);
@@ -297,13 +298,14 @@ static void write_bone_timelines(spine *s, size_t i)
         json_open(j, turning ? "rotate" : "translate", '[');
         for (size_t key = 0; key < s->p->n_keys; key++) {
             double share = (double)key / (double)(s->p->n_keys - 1);
+            const double *at = ways + 2 * (key * pins->n + i);
             json_open(j, NULL, '{');
             json_number(j, "time", time_of(s, key));
             if (turning) {
                 json_number(j, "value", -share * pins->turns[i]);
             } else {
-                json_number(j, "x", share * (to[0] - from[0]));
-                json_number(j, "y", share * (from[1] - to[1]));
+                json_number(j, "x", at[0] - from[0]);
+                json_number(j, "y", from[1] - at[1]);
             }
             json_close(j, '}');
         }
@@ -318,8 +320,13 @@ static void write_animation(spine *s)
     json_open(j, "animations", '{');
     json_open(j, "pose", '{');
     json_open(j, "bones", '{');
-    for (size_t i = 0; i < s->p->pins.n; i++)
-        write_bone_timelines(s, i);
+    const control_points *pins = &s->p->pins;
+    double *ways = need(s->p->n_keys * pins->n, 2 * sizeof *ways);
+    for (size_t key = 0; key < s->p->n_keys; key++)
+        pins_places(ways + 2 * key * pins->n, pins, (double)key / (double)(s->p->n_keys - 1));
+    for (size_t i = 0; i < pins->n; i++)
+        write_bone_timelines(s, ways, i);
+    free(ways);
     json_close(j, '}');
     json_open(j, "attachments", '{');
     json_open(j, "default", '{');
