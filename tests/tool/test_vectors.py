@@ -215,14 +215,17 @@ def require_rotated():
 
 def require_plane():
     """In the plane the third component stays, and a picture's y, which points down, is heeded."""
-    write("flat.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n1 1 0 3 1 0 1 3 0\nCELLS 1 4\n3 0 1 2\n"
-                      "CELL_TYPES 1\n5\nCELL_DATA 1\nFIELD f 1\nv 3 1 float\n5 0 7\n")
-    write("s.txt", "0 0\n4 0\n4 4\n0 4\n")
-    write("t.txt", "0 0\n6.4 4.8\n1.6 11.2\n-4.8 6.4\n")
-    run(0, "mesh", "-s", "s.txt", "-t", "t.txt", "--rotate-vectors", "flat.vtk", "turned.vtk")
-    got = list(map(float, open("turned.vtk").read().split("float\n")[-1].split()))
-    if any(abs(a - b) > 1e-12 for a, b in zip(got, [4, 3, 7])):
-        complain(f"in the plane: {got}")
+    for down, y_source, y_target, expected in (((), 1, 1, [4, 3, 7]), (("--y-down", "target"), 1, -1, [4, -3, 7]),
+                                               (("--y-down", "source"), -1, 1, [4, 3, 7])):
+        write("flat.vtk", f"# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n1 {y_source} 0 3 {y_source} 0 "
+                          f"1 {3 * y_source} 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\nCELL_DATA 1\nFIELD f 1\nv 3 1 float\n5 0 7\n")
+        for name, y, points in (("s.txt", y_source, [(0, 0), (4, 0), (4, 4), (0, 4)]),
+                                ("t.txt", y_target, [(0, 0), (6.4, 4.8), (1.6, 11.2), (-4.8, 6.4)])):
+            write(name, "".join(f"{px} {y * py}\n" for px, py in points))
+        run(0, "mesh", "-s", "s.txt", "-t", "t.txt", *down, "--rotate-vectors", "flat.vtk", "turned.vtk")
+        got = list(map(float, open("turned.vtk").read().split("float\n")[-1].split()))
+        if any(abs(a - b) > 1e-12 for a, b in zip(got, expected)):
+            complain(f"in the plane, {down}: {got}")
 
 
 def require_refusals():

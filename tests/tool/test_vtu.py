@@ -128,7 +128,8 @@ def inflated(form, content):
 def require_forms():
     images = run(0, "map", "-s", "before.off", "-t", "after.off", "-p", "points.txt").stdout.split("\n")[:4]
     images = [list(map(float, line.split())) for line in images]
-    forms = [Form("ascii")] + [Form(*f) for f in itertools.product(("binary", "raw", "base64"), *[(False, True)] * 3)]
+    forms = [Form("ascii")] + [Form(kind, zipped, wide, big) for kind in ("binary", "raw", "base64") for zipped in (False, True)
+                               for wide, big in ((False, zipped), (True, not zipped))]
     for form in forms:
         name = f"{form}.vtu"
         write(name, form.file(pieces_of(POINTS)))
