@@ -4,11 +4,13 @@
 #include "../../faulty.h"
 #include "../../flat_mesh.h"
 #include "../../hollow_bodies.h"
+#include "../../share.h"
 #include "../../suite.h"
 #include "domain/domain.h"
 #include "fill/points.h"
 #include "geometry/simplices.h"
 #include "icc/icc.h"
+#include "math/predicates.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -116,6 +118,7 @@ static void measure_regions(const icc_domain *filled, double *volume)
             iccp_points_volume(x + 3 * c[0], x + 3 * c[1], x + 3 * c[2], x + 3 * c[3]);
         ck_assert_uint_le(regions[i], info.n_regions);
         ck_assert(six > 0);
+        ck_assert_int_gt(iccp_orient3d(x + 3 * c[0], x + 3 * c[1], x + 3 * c[2], x + 3 * c[3]), 0);
         volume[regions[i]] += six / 6;
     }
     free(x);
@@ -259,6 +262,164 @@ START_TEST(lines)
 }
 END_TEST
 
+/* ---- random solids ---- */
+
+/* A ball inside the solid for one feature, or for one in another. */
+typedef struct ball {
+    double centre[3], radius;
+} ball;
+
+static int is_beam(int x, int y, int z)
+{
+    return (x % 2 != 0) + (y % 2 != 0) + (z % 2 != 0) < 2;
+}
+
+/* Draws a body: a star, a ring, a knot or a frame of cubes with six holes. */
+static void draw_outer(int kind)
+{
+    switch (kind) {
+    case 0:
+        surface_star(&b.outer, 3, 0.3, &r);
+        return;
+    case 1:
+        surface_tube(&b.outer, 24, 8, 0.35, tube_circle);
+        return;
+    case 2:
+        surface_tube(&b.outer, 60, 8, 0.4, tube_trefoil);
+        return;
+    default:
+        surface_cells(&b.outer, 3, is_beam);
+        return;
+    }
+}
+
+/* Draws a ball that lies in the body. */
+static ball draw_ball(int kind)
+{
+    ball at = {{0}, random_between(&r, 0.5, 1)};
+    const double angle = random_between(&r, 0, 6.28);
+    switch (kind) {
+    case 0:
+        at.radius *= 0.2;
+        for (int k = 0; k < 3; ++k)
+            at.centre[k] = random_between(&r, -0.25, 0.25);
+        break;
+    case 1:
+        at.radius *= 0.2;
+        tube_circle(angle, at.centre);
+        break;
+    case 2:
+        at.radius *= 0.2;
+        tube_trefoil(angle, at.centre);
+        break;
+    default:
+        at.radius *= 0.4;
+        for (int k = 0; k < 3; ++k)
+            at.centre[k] = (k == 0 ? 0 : 2) + 0.5;
+        at.centre[random_below(&r, 3)] = random_between(&r, 0.5, 2.5);
+        break;
+    }
+    return at;
+}
+
+static bool is_apart(const ball *balls, size_t n)
+{
+    for (size_t i = 0; i < n; ++i) {
+        double square = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double d = balls[i].centre[k] - balls[n].centre[k];
+            square += d * d;
+        }
+        if (sqrt(square) < 1.05 * (balls[i].radius + balls[n].radius))
+            return false;
+    }
+    return true;
+}
+
+/* Adds a star or a ring that fills a share of a at. */
+static void draw_surface(const ball *at, double share, int32_t kind)
+{
+    const bool ring = random_below(&r, 3) == 0;
+    const double scale = share * at->radius / (ring ? 1.3 : 1);
+    if (ring)
+        surface_tube(&shape, 14, 5, 0.25, tube_circle);
+    else
+        surface_star(&shape, 1 + random_below(&r, 2), 0.3, &r);
+    surface_place(&shape, random_below(&r, 3), scale, at->centre[0], at->centre[1], at->centre[2]);
+    add_surface(kind);
+}
+
+static void draw_line(const ball *at)
+{
+    double x[18];
+    const size_t n = 2 + (size_t)random_below(&r, 5);
+    for (size_t i = 0; i < 3 * n; ++i)
+        x[i] = at->centre[i % 3] + 0.57 * at->radius * random_between(&r, -1, 1);
+    add(ICC_FEATURE_LINE, n, x);
+}
+
+/* Draws a feature, or a void in a region. Adds the volumes of regions. */
+static void draw_feature(const ball *at, double *volume, size_t *n_regions)
+{
+    const size_t first = b.n;
+    const int kind = random_below(&r, 5);
+    switch (kind) {
+    case 0:
+        draw_surface(at, 1, ICC_FEATURE_HOLE);
+        break;
+    case 1:
+        draw_surface(at, 1, ICC_FEATURE_REGION);
+        break;
+    case 2:
+        surface_star(&shape, 2, 0.2, &r);
+        surface_place(&shape, 0, at->radius, at->centre[0], at->centre[1], at->centre[2]);
+        add_surface(ICC_FEATURE_REGION);
+        draw_surface(at, 0.5, ICC_FEATURE_HOLE);
+        break;
+    case 3:
+        draw_line(at);
+        return;
+    default:
+        add(ICC_FEATURE_POINT, 1, at->centre);
+        return;
+    }
+    volume[0] -= b.volume[first];
+    if (kind > 0)
+        volume[++*n_regions] = b.volume[first] - (kind == 2 ? b.volume[first + 1] : 0);
+}
+
+static void draw_solid(uint64_t seed, double *volume)
+{
+    ball balls[6];
+    size_t n_regions = 0;
+    const int kind = (int)(seed % 4);
+    begin(0);
+    r = (random_source){seed};
+    draw_outer(kind);
+    volume[0] = inside_of(&b.outer);
+    for (size_t n = 0, tries = 0; n < 6 && tries < 40; ++tries) {
+        balls[n] = draw_ball(kind);
+        if (is_apart(balls, n))
+            draw_feature(&balls[n++], volume, &n_regions);
+    }
+}
+
+/* Bodies with handles, with voids, regions, lines and points inside. The volume of each region is
+ * that between its given surfaces. */
+START_TEST(random_solids)
+{
+    for (uint64_t seed = 1; seed <= (uint64_t)share_of(100); ++seed) {
+        double wanted[8], volume[8];
+        draw_solid(seed, wanted);
+        icc_domain *const filled = fill();
+        measure_regions(filled, volume);
+        for (size_t k = 0; k <= info_of_domain(filled).n_regions; ++k)
+            ck_assert_double_eq_tol(volume[k], wanted[k], 1e-12 * inside_of(&b.outer));
+        icc_domain_free(filled);
+    }
+}
+END_TEST
+
 static icc_status fill_once(const icc_env *env, icc_error *err, void *argument)
 {
     icc_domain *filled;
@@ -296,6 +457,7 @@ int main(void)
     tcase_add_test(tests, linked_regions);
     tcase_add_test(tests, twisted_regions);
     tcase_add_test(tests, lines);
+    tcase_add_test(tests, random_solids);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
