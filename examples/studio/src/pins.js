@@ -1,5 +1,6 @@
 // Mode pins: a figure, pins in it, and the map that follows the pins as they are dragged. The outline is free.
 import { ask } from './ask.js';
+import { cutoutOf } from './cutout.js';
 import { button, make } from './dom.js';
 import { Drawing } from './drawing.js';
 import { History } from './history.js';
@@ -77,11 +78,12 @@ export class PinMode {
     this.side.select.value = key;
   }
 
-  /** A picture of the user's own. Its frame is the figure until another one is drawn. */
+  /** A picture of the user's own. The figure is what is not transparent, or else the frame, until another one is drawn. */
   open(image) {
+    const cutout = cutoutOf(image);
     this.#picture(image);
-    this.begin(frameOf(image));
-    this.side.select.value = 'frame';
+    this.begin(cutout ?? frameOf(image));
+    if (!cutout) this.side.select.value = 'frame';
   }
 
   #picture(image) {

@@ -178,6 +178,33 @@ test('the view: squares, distortion, triangles; the place under the pointer; a p
   assert.equal(fs.readFileSync(saved).readUInt32BE(16), 640);
 });
 
+test('the figure in a picture with a transparent ground is what is not transparent, with its hole', async () => {
+  await page.evaluate(async () => {
+    const sheet = new OffscreenCanvas(300, 200), g = sheet.getContext('2d');
+    g.fillStyle = 'teal';
+    g.beginPath();
+    g.ellipse(150, 100, 120, 80, 0, 0, 7);
+    g.ellipse(100, 100, 30, 20, 0, 7, 0, true);
+    g.fill();
+    g.fillRect(280, 180, 10, 10);
+    studio.modes.pins.open(sheet.transferToImageBitmap());
+  });
+  await settle(page);
+  const shape = (await state()).figure, area = ({ points }) => points.reduce((sum, [x, y], i) => {
+    const [u, v] = points[(i + 1) % points.length];
+    return sum + (x * v - u * y) / 2;
+  }, 0);
+  assert.deepEqual(shape.map(({ kind }) => kind), ['outline', 'hole']);
+  assert.ok(Math.abs(area(shape[0]) / (Math.PI * 120 * 80) - 1) < 0.03 && Math.abs(area(shape[1]) / (Math.PI * 30 * 20) + 1) < 0.1);
+  assert.ok(shape[0].points.length < 100, `${shape[0].points.length} corners`);
+  await clicks(REST, [60, 100], [240, 100], [5, 5]);
+  assert.equal((await state()).pins.length, 2);
+  await page.click('[data-tool=move]');
+  await drag(page, pin(2), [20, -30], 5);
+  assert.deepEqual(await distances(), [0, 0]);
+  await certified();
+});
+
 test('pins are saved and come back', async () => {
   await figure('figure');
   const { pins, targets } = await state(), folder = `${SHOTS}/saved-pins`, cdp = await browser.target().createCDPSession();
