@@ -107,6 +107,23 @@ for end in msh vtk vtu; do
 done
 formats_agree before
 formats_agree after
+
+# Read again, they give the same regions, whatever the format. Those of one mesh alone, and those that touch, are not kept.
+awk 'NF == 5 { n[$5]++ } END { print n[1], n[2] }' before.mesh >wanted
+for end in mesh msh vtk vtu; do
+    run 0 map --mesh before.$end --target-mesh after.$end --mesh-out again.mesh
+    awk 'NF == 5 { n[$5]++ } END { print n[1], n[2] }' again.mesh >found
+    same found wanted
+done
+run 0 check --mesh before.msh --target-mesh after.msh
+holds out 'with 1 region inside: 8 vertices, 12 faces'
+run 0 mesh --mesh before.vtu --target-mesh after.vtu before.mesh again.mesh
+sed 's/ 2 2 2 / 2 1 1 /' after.msh >one.msh
+run 0 map --mesh before.msh --target-mesh one.msh --mesh-out again.mesh
+says 'the map does not keep the regions, because the meshes do not have the same number of them'
+awk '/^Tetrahedra/ { on = 1 } on && NF == 5 { $5 = NR % 2 + 1 } { print }' before.mesh >touch.mesh
+run 0 map --mesh touch.mesh --target-mesh touch.mesh --mesh-out again.mesh
+says 'the map does not keep the regions: a surface between regions touches the boundary'
 for end in mesh msh vtk vtu; do
     run 0 check -s before.$end
     grep -q 'volume 999' out || complain "$end: $(cat out)"

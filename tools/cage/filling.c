@@ -17,6 +17,7 @@ void filling_free(filling *f)
     free(f->points);
     free(f->corners);
     free(f->facets);
+    free(f->regions);
     *f = (filling){0};
 }
 
@@ -151,6 +152,8 @@ bool filling_read(filling *out, const cage *c, const char *text, size_t n, probl
         if (good)
             arrange(out, c, m.n_vertices, m.points, order, n_elements,
                     c->dim == 2 ? m.triangles : m.tetrahedra);
+        if (good && c->dim == 3)
+            out->regions = mesh_tetrahedron_regions(&m);
         free(order);
     }
     mesh_free(&m);

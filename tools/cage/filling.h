@@ -9,6 +9,7 @@ typedef struct filling {
     size_t dim, n_points, n;
     double *points;    /* n_points * dim: first the vertices of the cage, in their order */
     uint32_t *corners; /* n * (dim + 1) */
+    int32_t *regions;  /* in space: of each tetrahedron, as the file numbers them; or NULL */
     size_t n_facets;
     uint32_t *facets; /* n_facets * dim: those of the cage */
 } filling;

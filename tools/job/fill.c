@@ -90,8 +90,35 @@ static int fill_by_tetgen(filling *out, job *j, const cage *c, size_t side)
                : failed(job_file(j, (int)side + 1), 0, "%s", wrong.text);
 }
 
+/* Makes a domain from a mesh. *regions becomes false if its regions touch and are left out. */
+static icc_status make_domain(icc_domain **out, job *j, const char *name, const filling *f,
+                              bool *regions, icc_error *err)
+{
+    icc_mesh mesh = {.size = sizeof mesh,
+                     .dim = (int32_t)f->dim,
+                     .n_vertices = f->n_points,
+                     .vertices = f->points,
+                     .n_cells = f->n,
+                     .cells = f->corners,
+                     .regions = *regions ? f->regions : NULL};
+    icc_status status = icc_domain_create_mesh(out, &mesh, f->n_facets, f->facets, &j->env, err);
+    if (mesh.regions == NULL || status != ICC_ERR_BOUNDARY)
+        return status;
+    icc_error plain = {.size = sizeof plain, .index = -1};
+    mesh.regions = NULL;
+    *regions = false;
+    status = icc_domain_create_mesh(out, &mesh, f->n_facets, f->facets, &j->env, &plain);
+    if (status == ICC_OK) {
+        progress_end(&j->bar);
+        note("%s: the map does not keep the regions: %s", name, err->message);
+    } else {
+        *err = plain;
+    }
+    return status;
+}
+
 /* Makes a domain from the mesh that is read, or from tetgen's. */
-static int make_from(icc_domain **out, job *j, size_t side)
+static int make_from(icc_domain **out, job *j, size_t side, bool *regions)
 {
     filling f = {0};
     icc_error err = {.size = sizeof err, .index = -1};
@@ -100,14 +127,7 @@ static int make_from(icc_domain **out, job *j, size_t side)
     int result =
         name != NULL ? read_filling(&f, j, &used, side) : fill_by_tetgen(&f, j, &used, side);
     cage_free(&used);
-    const icc_mesh mesh = {.size = sizeof mesh,
-                           .dim = (int32_t)f.dim,
-                           .n_vertices = f.n_points,
-                           .vertices = f.points,
-                           .n_cells = f.n,
-                           .cells = f.corners};
-    if (result == DONE &&
-        icc_domain_create_mesh(out, &mesh, f.n_facets, f.facets, &j->env, &err) != ICC_OK) {
+    if (result == DONE && make_domain(out, j, name, &f, regions, &err) != ICC_OK) {
         progress_end(&j->bar);
         result = failed(name != NULL ? name : job_file(j, (int)side + 1), 0, "%s%s",
                         name != NULL ? "" : "the mesh that tetgen has made: ", err.message);
@@ -116,11 +136,11 @@ static int make_from(icc_domain **out, job *j, size_t side)
     return result;
 }
 
-static int make_filled(icc_domain **out, job *j, size_t side)
+static int make_filled(icc_domain **out, job *j, size_t side, bool *regions)
 {
     icc_error err = {.size = sizeof err, .index = -1};
     if (mesh_name(j, side) != NULL || (job_dim(j) == 3 && by_tetgen(j)))
-        return make_from(out, j, side);
+        return make_from(out, j, side, regions);
     if (job_dim(j) != 3)
         return failed(
             job_file(j, (int)side + 1), 0,
@@ -133,16 +153,43 @@ static int make_filled(icc_domain **out, job *j, size_t side)
     return job_failed(j, &err);
 }
 
+static size_t count_features(const icc_domain *domain)
+{
+    icc_domain_info info = {.size = sizeof info};
+    return icc_domain_get_info(domain, &info) == ICC_OK ? info.n_features : 0;
+}
+
+static int make_all(icc_domain *filled[2], job *j, size_t n, bool regions)
+{
+    int result = DONE;
+    for (size_t side = 0; result == DONE && side < n; side++)
+        result = make_filled(&filled[side], j, side, &regions);
+    if (result != DONE || n < 2 || count_features(filled[0]) == count_features(filled[1]))
+        return result;
+    if (regions)
+        note("%s: the map does not keep the regions, because the meshes do not have the same "
+             "number of them",
+             mesh_name(j, 0));
+    for (size_t side = 0; side < 2; side++) {
+        icc_domain_free(filled[side]);
+        filled[side] = NULL;
+    }
+    return make_all(filled, j, n, false);
+}
+
+/* A map keeps the regions of two meshes. Charts have none. */
 int fill_domains(job *j)
 {
     icc_domain *filled[2] = {NULL, NULL};
+    const bool regions =
+        j->args->mesh != NULL && j->args->target_mesh != NULL && j->args->method == 0;
     size_t n = j->args->target != NULL ? 2 : 1;
     int result = job_make_domains(j);
     if (result != DONE || j->filled || !wanted(j))
         return result;
     result = check(j);
-    for (size_t side = 0; result == DONE && side < n; side++)
-        result = make_filled(&filled[side], j, side);
+    if (result == DONE)
+        result = make_all(filled, j, n, regions);
     for (size_t side = 0; side < 2; side++) {
         icc_domain_free(result == DONE ? j->made[side] : filled[side]);
         if (result == DONE)

@@ -253,7 +253,7 @@ inside_counts inside_count(const cage *c, const icc_domain_info *info)
 {
     const size_t n_outer = c->n_facets > 0 || c->dim != 2 ? c->n_facets : c->n;
     inside_counts own = {0, 0};
-    if (c->n_features > 0 && info->n_vertices >= c->n && info->n_facets >= n_outer)
+    if (info->n_features > 0 && info->n_vertices >= c->n && info->n_facets >= n_outer)
         own = (inside_counts){info->n_vertices - c->n, info->n_facets - n_outer};
     return own;
 }
@@ -264,12 +264,18 @@ static void report_inside(json *out, const job *j)
 {
     const cage *c = &j->cages[0];
     icc_domain_info info = {.size = sizeof info};
+    const bool has_domain =
+        j->domains[0] != NULL && icc_domain_get_info(j->domains[0], &info) == ICC_OK;
+    if (c->n_features == 0 && info.n_features == 0)
+        return;
     json_open(out, "inside", '{');
     json_count(out, "holes", cage_count(c, ICC_FEATURE_HOLE));
-    json_count(out, "regions", cage_count(c, ICC_FEATURE_REGION));
+    /* The regions of a mesh are not those of its cage. */
+    json_count(out, "regions",
+               c->n_features > 0 ? cage_count(c, ICC_FEATURE_REGION) : info.n_regions);
     json_count(out, "lines", cage_count(c, ICC_FEATURE_LINE));
     json_count(out, "points", cage_count(c, ICC_FEATURE_POINT));
-    if (j->domains[0] != NULL && icc_domain_get_info(j->domains[0], &info) == ICC_OK) {
+    if (has_domain) {
         const inside_counts own = inside_count(c, &info);
         json_count(out, "vertices", own.n_vertices);
         json_count(out, "facets", own.n_facets);
@@ -300,8 +306,7 @@ bool report_open(report *r, const job *j)
     }
     if (cage_outlines(&j->cages[0]) > 1)
         json_count(&r->json, "polygons", cage_outlines(&j->cages[0]));
-    if (j->cages[0].n_features > 0)
-        report_inside(&r->json, j);
+    report_inside(&r->json, j);
     if (j->matched.size > 0)
         match_report(&r->json, &j->matched);
     if (j->cages[0].n_facets > 0)

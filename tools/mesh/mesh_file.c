@@ -1,8 +1,10 @@
 /* Chooses the reader of a mesh, and writes its text with other coordinates. */
 #include "mesh/mesh_file.h"
 
+#include "base/allocate.h"
 #include "base/bytes.h"
 #include "base/foreign.h"
+#include "mesh/element_kinds.h"
 #include "mesh/mesh_lines.h"
 #include "mesh/vtu.h"
 
@@ -114,10 +116,23 @@ void mesh_free(mesh_file *m)
     free(m->kinds);
     free(m->node_starts);
     free(m->nodes);
+    free(m->regions);
     free(m->parts);
     free(m->line_starts);
     free(m->line_nodes);
     *m = (mesh_file){0};
+}
+
+int32_t *mesh_tetrahedron_regions(const mesh_file *m)
+{
+    if (m->n_regions == 0)
+        return NULL;
+    int32_t *regions = need(m->n_tetrahedra, sizeof *regions);
+    size_t n = 0;
+    for (size_t i = 0; i < m->n_elements; i++)
+        if (m->kinds[i] == ELEMENT_TETRAHEDRON)
+            regions[n++] = i < m->n_regions ? m->regions[i] : 0;
+    return regions;
 }
 
 bool mesh_round(const mesh_file *m, double *points, size_t *beyond)

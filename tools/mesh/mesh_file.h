@@ -104,6 +104,10 @@ typedef struct mesh_file {
     size_t *node_starts;
     uint32_t *nodes;
     size_t room_kinds, room_node_starts, room_nodes;
+    /* The region of each of the first n_regions elements, as the file numbers them: Medit's
+     * reference, Gmsh's physical tag or entity, or cell data of VTK. Other elements have none. */
+    size_t n_regions, room_regions;
+    int32_t *regions;
     size_t n_parts; /* of OBJ */
     mesh_part *parts;
     /* Polylines of OBJ. Number i has the vertices line_nodes[line_starts[i] .. line_starts[i + 1]).
@@ -131,6 +135,9 @@ bool mesh_is_glb(const char *text, size_t n);
  * the mesh in either case. */
 bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *wrong);
 void mesh_free(mesh_file *m);
+
+/* The regions of all tetrahedra in their order, or NULL if none has a number. Free them. */
+int32_t *mesh_tetrahedron_regions(const mesh_file *m);
 
 /* Rounds coordinates to the precision of the file. Those that are not finite stay. False: vertex
  * *beyond has one that is too large. */

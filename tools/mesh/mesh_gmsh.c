@@ -99,6 +99,18 @@ static bool take_count(lines *r, size_t size, double limit, uint32_t *count)
                   (size_t)(r->at - r->mesh->text) - size, (unsigned long long)bits, limit);
 }
 
+/* A tag, which may be negative. */
+static bool take_tag_number(lines *r, double *value)
+{
+    uint64_t bits;
+    if (r->mesh->form == MESH_TEXT)
+        return lines_word(r) && lines_number(r, value);
+    if (!take_bytes(r, 4, &bits))
+        return false;
+    *value = (double)(int32_t)(uint32_t)bits;
+    return true;
+}
+
 /* Skips numbers that libicc does not use, which may be negative. */
 static bool skip_integers(lines *r, size_t n)
 {
@@ -278,18 +290,36 @@ static bool read_element(gmsh *g, const gmsh_kind *kind)
     return lines_element(r, kind->kind, kind->n_nodes, ordered);
 }
 
-/* A block of version 4.1. */
+/* The tags of an element of version 2.2. The first one is its physical group, or 0, and the second
+ * one its entity. */
+static bool take_tags(gmsh *g, uint32_t n, double *region)
+{
+    *region = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        double number;
+        if (!take_tag_number(g->r, &number))
+            return false;
+        if (i == 0 || (i == 1 && fabs(*region) < 1))
+            *region = number;
+    }
+    return true;
+}
+
+/* A block of version 4.1. Its region is the entity. */
 static bool read_block_of_elements(gmsh *g)
 {
     lines *r = g->r;
     uint32_t dim, type, n;
-    if (!take_count(r, 4, 4, &dim) || !skip_integers(r, 1) || !take_count(r, 4, 4e9, &type) ||
-        !take_count(r, 8, 4e9, &n))
+    double region;
+    if (!take_count(r, 4, 4, &dim) || !take_tag_number(r, &region) ||
+        !take_count(r, 4, 4e9, &type) || !take_count(r, 8, 4e9, &n))
         return false;
     const gmsh_kind *kind = find_kind(r, type);
-    for (; kind != NULL && n > 0; n--)
+    for (; kind != NULL && n > 0; n--) {
         if (!take_element(g, 8) || !read_element(g, kind))
             return false;
+        mesh_set_region(r->mesh, r->mesh->n_elements - 1, region);
+    }
     return kind != NULL;
 }
 
@@ -308,9 +338,13 @@ static bool read_old_elements(gmsh *g, uint32_t *n)
                       (size_t)(r->at - r->mesh->text));
     const gmsh_kind *kind = find_kind(r, type);
     *n -= n_block;
-    for (; kind != NULL && n_block > 0; n_block--)
-        if ((!text && !take_element(g, 4)) || !skip_integers(r, n_tags) || !read_element(g, kind))
+    for (; kind != NULL && n_block > 0; n_block--) {
+        double region;
+        if ((!text && !take_element(g, 4)) || !take_tags(g, n_tags, &region) ||
+            !read_element(g, kind))
             return false;
+        mesh_set_region(r->mesh, r->mesh->n_elements - 1, region);
+    }
     return kind != NULL;
 }
 

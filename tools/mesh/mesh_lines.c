@@ -189,3 +189,20 @@ bool lines_element(lines *r, int kind, size_t n, const uint32_t *nodes)
         add_tetrahedron(m, nodes);
     return true;
 }
+
+void mesh_set_region(mesh_file *m, size_t i, double region)
+{
+    if (!(region >= INT32_MIN && region <= INT32_MAX) || floor(region) < region)
+        return;
+    m->regions = grow(m->regions, &m->room_regions, i + 1, sizeof *m->regions);
+    while (m->n_regions <= i)
+        m->regions[m->n_regions++] = 0;
+    m->regions[i] = (int32_t)region;
+}
+
+const char *mesh_region_name(size_t k)
+{
+    static const char *const names[] = {"region", "medit:ref", "gmsh:physical", "gmsh:geometrical",
+                                        "CellEntityIds"};
+    return k < sizeof names / sizeof *names ? names[k] : NULL;
+}

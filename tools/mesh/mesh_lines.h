@@ -52,6 +52,12 @@ bool lines_element(lines *r, int kind, size_t n, const uint32_t *nodes);
 /* The name of the format of a file of n bytes. Moves from its beginning to its first mark. */
 const char *lines_format(lines *r, size_t n);
 
+/* Gives element i its region. A number that is no 32-bit integer is ignored. */
+void mesh_set_region(mesh_file *m, size_t i, double region);
+
+/* Name k of VTK's cell data with regions, as several programs write it; NULL after the last. */
+const char *mesh_region_name(size_t k);
+
 /* ---- the formats ---- */
 
 bool mesh_read_obj(lines *r);

@@ -1,8 +1,9 @@
 /* Medit's .mesh as text: sections with a name, the number of their items, and the items. Vertices
- * count from 1, and each item ends with a reference number, which is not used. */
+ * count from 1, and each item ends with a reference number, which is the region of an element. */
 #include "mesh/element_kinds.h"
 #include "mesh/mesh_lines.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static bool is_letter(char c)
@@ -82,6 +83,18 @@ static void settle_tetrahedron(const mesh_file *m, uint32_t nodes[10])
     }
 }
 
+/* Reads the reference of the last element, if there is one in this line. */
+static void read_reference(lines *r)
+{
+    char *end;
+    lines_skip_blanks(r);
+    if (r->at == r->end)
+        return;
+    double region = strtod(r->at, &end);
+    if (end > r->at && end <= r->end)
+        mesh_set_region(r->mesh, r->mesh->n_elements - 1, region);
+}
+
 static bool read_elements(lines *r, const section *s)
 {
     uint32_t n, nodes[ELEMENT_MOST_NODES];
@@ -97,6 +110,7 @@ static bool read_elements(lines *r, const section *s)
         if (s->kind == ELEMENT_TETRAHEDRON_2)
             settle_tetrahedron(r->mesh, nodes);
         lines_element(r, s->kind, s->n_nodes, nodes);
+        read_reference(r);
         r->at = r->end;
     }
     return true;

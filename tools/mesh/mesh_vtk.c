@@ -14,7 +14,8 @@
 typedef struct cells {
     uint32_t n, n_corners;
     uint32_t *starts, *corners;
-    bool typed; /* their types have been read */
+    bool typed;   /* their types have been read */
+    bool in_data; /* the section is CELL_DATA */
 } cells;
 
 static bool starts_with(lines *r, const char *word)
@@ -200,11 +201,54 @@ static bool begins_section(lines *r, const char *name)
     return !is_array(r) && lines_take(r, name);
 }
 
+/* True if a name of cell data with regions comes next, and moves after it. */
+static bool take_region_name(lines *r)
+{
+    lines_skip_blanks(r);
+    for (size_t k = 0; mesh_region_name(k) != NULL; k++)
+        if (lines_take(r, mesh_region_name(k)))
+            return true;
+    return false;
+}
+
+static bool read_region_values(lines *r, const cells *c)
+{
+    r->at = r->end;
+    for (uint32_t i = 0; i < c->n; i++) {
+        double value;
+        if (!lines_word(r) || !lines_number(r, &value))
+            return false;
+        mesh_set_region(r->mesh, i, value);
+    }
+    return true;
+}
+
+/* Reads cell data with regions as text: `SCALARS name type` and a lookup table, or an array of a
+ * field, `name 1 cells type`. Other data is skipped. */
+static bool read_cell_data(lines *r, const cells *c)
+{
+    uint32_t n;
+    if (!is_array(r) && lines_take(r, "SCALARS")) {
+        if (!take_region_name(r))
+            return true;
+        r->at = r->end;
+        return starts_with(r, "LOOKUP_TABLE") && read_region_values(r, c);
+    }
+    if (!is_array(r) || !take_region_name(r))
+        return true;
+    if (!lines_count(r, 4e9, &n))
+        return false;
+    if (n != 1)
+        return true;
+    return lines_count(r, 4e9, &n) && (n != c->n || read_region_values(r, c));
+}
+
 /* Copies other sections (METADATA, CELL_DATA, POINT_DATA). Bytes after the types are not read. */
 static bool read_sections(lines *r, cells *c)
 {
     bool binary = r->mesh->form == MESH_BIG;
     for (lines_skip_blanks(r); r->at < r->end || lines_next(r); lines_skip_blanks(r)) {
+        const char *line = r->at;
         bool good = true;
         if (binary && c->typed)
             return true;
@@ -218,7 +262,13 @@ static bool read_sections(lines *r, cells *c)
             good = spoilt(r->wrong, r->line, "a second DATASET; a mesh has one");
         else if (binary && lines_take(r, "FIELD"))
             good = vtk_skip_field(r);
-        else
+        else if (begins_section(r, "CELL_DATA"))
+            c->in_data = c->typed;
+        else if (begins_section(r, "POINT_DATA"))
+            c->in_data = false;
+        else if (c->in_data)
+            good = read_cell_data(r, c);
+        if (r->at == line || c->in_data)
             r->at = r->end;
         if (!good)
             return false;

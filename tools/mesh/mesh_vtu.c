@@ -120,18 +120,35 @@ static void forget(vtu_array *a)
     a->values = NULL;
 }
 
+/* Reads the regions of a piece's cells from the first array of cell data with such a name. */
+static bool read_regions(lines *r, size_t piece, size_t first, size_t n)
+{
+    vtu *v = r->mesh->vtu;
+    vtu_array *a = NULL;
+    for (size_t k = 0; mesh_region_name(k) != NULL && a == NULL; k++)
+        a = vtu_find(v, piece, VTU_CELL_DATA, mesh_region_name(k));
+    if (a == NULL || a->n_components > 1)
+        return true;
+    bool good = vtu_read(v, a, n, r->wrong);
+    for (size_t i = 0; i < n && good; i++)
+        mesh_set_region(r->mesh, first + i, a->values[i]);
+    forget(a);
+    return good;
+}
+
 /* The offsets of cells are the ends of their lists of nodes. The last one is the number of nodes. */
 static bool read_cells(lines *r, size_t piece, size_t first)
 {
     const vtu_piece *p = &r->mesh->vtu->pieces[piece];
     cells c = {.first = first, .n_points = p->n_points};
-    size_t n_nodes = 0;
+    size_t n_nodes = 0, first_element = r->mesh->n_elements;
     if (p->n_cells == 0)
         return true;
     bool good = read_cell_array(r, piece, "offsets", p->n_cells, &c.ends) &&
                 take(r, c.ends, p->n_cells - 1, 0, 4e9, &n_nodes) &&
                 read_cell_array(r, piece, "connectivity", n_nodes, &c.nodes) &&
-                read_cell_array(r, piece, "types", p->n_cells, &c.types) && add_cells(r, &c);
+                read_cell_array(r, piece, "types", p->n_cells, &c.types) && add_cells(r, &c) &&
+                read_regions(r, piece, first_element, p->n_cells);
     forget(c.ends);
     forget(c.nodes);
     forget(c.types);

@@ -74,11 +74,14 @@ static void print_solid(const cage *c, const icc_domain_info *info)
 {
     const inside_counts own = inside_count(c, info);
     char inside[120];
+    cage_inside_text(inside, c);
+    if (c->n_features == 0 && own.n_vertices > 0) /* of a mesh with region numbers */
+        snprintf(inside, sizeof inside, ", with %zu region%s inside", info->n_regions,
+                 info->n_regions == 1 ? "" : "s");
     printf(
         "a closed surface that does not meet itself, %zu vertices, %zu faces, %s, volume %.12g%s",
         info->n_vertices - own.n_vertices, info->n_facets - own.n_facets,
-        info->orientation > 0 ? "facing outward" : "facing inward", info->measure,
-        cage_inside_text(inside, c));
+        info->orientation > 0 ? "facing outward" : "facing inward", info->measure, inside);
     if (own.n_vertices > 0)
         printf(": %zu vertices, %zu faces", own.n_vertices, own.n_facets);
     putchar('\n');
