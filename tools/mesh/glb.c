@@ -158,8 +158,8 @@ bool glb_find_items(const glb *g, const json_item *index, const char *of, glb_ki
     out->size = item_size(object, kind);
     if (out->size == 0)
         return spoilt(wrong, 0, "%s, for %s, is not of %s", where, of,
-                      kind == GLB_THREE    ? "three floats"
-                      : kind == GLB_FOUR   ? "four floats"
+                      kind == GLB_THREE    ? "three floats; save without quantization"
+                      : kind == GLB_FOUR   ? "four floats; save without quantization"
                       : kind == GLB_MATRIX ? "matrices of floats"
                                            : "whole numbers without a sign");
     if (json_get(object, "sparse") != NULL || json_get(object, "bufferView") == NULL)
