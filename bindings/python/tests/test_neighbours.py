@@ -3,6 +3,7 @@
 import libicc
 import numpy as np
 import pytest
+from libicc._layer import _off
 
 
 @pytest.fixture
@@ -57,9 +58,9 @@ def test_lines_bend(mapping, shapes):
                 share = np.linspace(0, 1, 501)[:, None]
                 on_old = np.concatenate([a + share * (b - a) for a, b in zip(old[:-1, :2], old[1:, :2])])
                 images = mapping(on_old)
-                far = libicc.geopandas._off(new[:-1, None, :2].repeat(len(images), 1).reshape(-1, 2),
-                                            new[1:, None, :2].repeat(len(images), 1).reshape(-1, 2),
-                                            np.tile(images, (len(new) - 1, 1))[:, None])
+                far = _off(new[:-1, None, :2].repeat(len(images), 1).reshape(-1, 2),
+                           new[1:, None, :2].repeat(len(images), 1).reshape(-1, 2),
+                           np.tile(images, (len(new) - 1, 1))[:, None])
                 assert far.reshape(len(new) - 1, -1).min(axis=0).max() < 3 * tolerance
     assert len(positions(moved["b"])[0]) > 10
     straight = libicc.Map([[0, 0], [10, 0], [10, 10], [0, 10]], [[5, 0], [15, 0], [15, 10], [5, 10]])
