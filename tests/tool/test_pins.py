@@ -353,6 +353,12 @@ def test_trouble():
     refused("--pins", "good.json", "--rate", "3", "hero.png", "no.png", says="--rate goes with --frames", rc=2)
     refused("--pins", "good.json", "--spine", "good.json", "hero.png", "no.png", says="over an input", rc=2)
     refused("--pins", "good.json", "hero.png", "hero.png", says="over an input", rc=2)
+    # The same file is control points of a fit, but for turns and bones.
+    for text, rc in (({"pins": at}, 0), ({"pins": at + [pin("chin", (60, 36), turn=3)]}, 1)):
+        with open("fit.json", "w", encoding="utf-8") as out:
+            json.dump(text, out)
+        got = subprocess.run([TOOL, "fit", "fit.json"], capture_output=True, text=True, check=False)
+        check(got.returncode == rc and ("point left hand" in got.stdout if rc == 0 else "takes turns and bones" in got.stderr), f"fit: {got.stderr}")
     # Pins that cannot be reached are told, and the picture is certified all the same.
     clash = [pin(name, at, (60, 60) if "hand" in name else to) for name, at, to in PINS]
     _, report = pose(clash, rc=4)
