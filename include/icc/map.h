@@ -498,10 +498,11 @@ ICC_API icc_status icc_domain_get_feature(const icc_domain *domain, size_t featu
 ICC_API icc_status icc_domain_get_mesh(const icc_domain *domain, icc_mesh *mesh);
 
 /**
- * Copies the region of each cell of the mesh, for a solid that icc_domain_fill() filled. Regions
- * are numbered like the features of kind ::ICC_FEATURE_REGION, starting at 1. Cells of region k lie
- * within the k-th such surface, but not within a region inside it. Cells within no such surface
- * have number 0.
+ * Copies the region of each cell of the mesh, for a solid that icc_domain_fill() filled, or a mesh
+ * that came with icc_mesh::regions. Regions are numbered like the features of kind
+ * ::ICC_FEATURE_REGION, starting at 1. Cells of region k lie within the k-th such surface, but not
+ * within a region inside it. Cells within no such surface have number 0. The files that the command
+ * `libicc` writes count from 1 instead, as libicc-files(5) explains.
  *
  * @param domain       a domain with a mesh: icc_domain_info::n_mesh_simplices is not 0
  * @param[out] regions room for n_mesh_simplices numbers

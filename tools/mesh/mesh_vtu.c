@@ -127,7 +127,7 @@ static bool read_regions(lines *r, size_t piece, size_t first, size_t n)
     vtu_array *a = NULL;
     for (size_t k = 0; mesh_region_name(k) != NULL && a == NULL; k++)
         a = vtu_find(v, piece, VTU_CELL_DATA, mesh_region_name(k));
-    if (a == NULL || a->n_components > 1)
+    if (a == NULL || a->n_components > 1 || a->kind == '?')
         return true;
     bool good = vtu_read(v, a, n, r->wrong);
     for (size_t i = 0; i < n && good; i++)

@@ -1645,9 +1645,11 @@ extern "C" {
         info: *mut icc_feature_info,
     ) -> icc_status;
 
-    /// Copies the region of each cell of the mesh, for a solid that `icc_domain_fill()` filled. Regions are
-    /// numbered like the features of kind `ICC_FEATURE_REGION`, starting at 1. Cells of region k lie within
-    /// the k-th such surface, but not within a region inside it. Cells within no such surface have number 0.
+    /// Copies the region of each cell of the mesh, for a solid that `icc_domain_fill()` filled, or a mesh
+    /// that came with `icc_mesh.regions`. Regions are numbered like the features of kind
+    /// `ICC_FEATURE_REGION`, starting at 1. Cells of region k lie within the k-th such surface, but not
+    /// within a region inside it. Cells within no such surface have number 0. The files that the command
+    /// `libicc` writes count from 1 instead, as libicc-files(5) explains.
     ///
     /// - `domain`: a domain with a mesh: `icc_domain_info.n_mesh_simplices` is not 0
     /// - `regions` (out): room for n_mesh_simplices numbers
