@@ -208,6 +208,16 @@ bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t 
     return find_place(map, a, node[0], *facet, from) && find_place(map, b, node[1], *facet, to);
 }
 
+bool iccp_plmap_may_flip(const iccp_plmap *map, uint32_t corner)
+{
+    const uint32_t twin = map->corners.twin[corner];
+    uint32_t facet;
+    double from, to;
+    return twin != ICCP_NO_NEIGHBOUR && !iccp_plmap_is_line(map, corner) &&
+           !iccp_plmap_on_line(map, map->corners.vertex[corner], map->corners.vertex[twin], &facet,
+                               &from, &to);
+}
+
 bool iccp_plmap_find_vertices(const iccp_plmap *map, uint32_t *vertex)
 {
     const iccp_network *network = iccp_network_of(map->featured);

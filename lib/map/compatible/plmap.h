@@ -191,6 +191,10 @@ static inline bool iccp_plmap_may_cut(const iccp_plmap *map, uint32_t corner)
             map->fixed[v[iccp_before(corner)]] != ICCP_ON_POINT);
 }
 
+/* Whether the edge that a corner faces lies inside the mesh and not on a side, and the other
+ * diagonal of its two triangles would not lie on a side either. */
+bool iccp_plmap_may_flip(const iccp_plmap *map, uint32_t corner);
+
 /* Finds the mesh's vertex at each vertex of a source with features. Returns false unless there is
  * exactly one at each node. */
 bool iccp_plmap_find_vertices(const iccp_plmap *map, uint32_t *vertex);

@@ -5,74 +5,11 @@
  * equal (map/isotopy/crossing_sequence.h). */
 #include "map/isotopy/isotopy.h"
 
-#include "base/sets.h"
-#include "base/sort.h"
 #include "map/isotopy/draw_crossings.h"
+#include "map/isotopy/edge_tree.h"
 #include "map/isotopy/sequence_motion.h"
 
 #include <string.h>
-
-/* ---- the tree ---- */
-
-/* An edge between two components. */
-typedef struct bridge {
-    double length;
-    uint32_t ends[2];
-} bridge;
-
-/* Shorter edges come first, then edges of smaller vertices. */
-static int compare(const void *x, const void *y)
-{
-    const bridge *a = x, *b = y;
-    if (a->length < b->length || a->length > b->length)
-        return a->length < b->length ? -1 : 1;
-    for (int k = 0; k < 2; ++k)
-        if (a->ends[k] != b->ends[k])
-            return a->ends[k] < b->ends[k] ? -1 : 1;
-    return 0;
-}
-
-/* Lists each edge between two components once. */
-static size_t list_bridges(bridge *bridges, const iccp_domain_pair *domains)
-{
-    const iccp_corners *mesh = &domains->mesh[0];
-    size_t n = 0;
-    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
-        const uint32_t a = mesh->vertex[iccp_after(c)], b = mesh->vertex[iccp_before(c)];
-        if (a < b && domains->component[a] != domains->component[b])
-            bridges[n++] =
-                (bridge){iccp_distance_between(domains->domain[0]->vertices, a, b), {a, b}};
-    }
-    return n;
-}
-
-/* J. B. Kruskal, On the shortest spanning subtree of a graph, 1956: one tree for each part of the
- * domain. Its edges are straight lines without bends. Only the source's side is filled in. */
-static icc_status find_tree(iccp_cuts *tree, const iccp_domain_pair *domains, const iccp_env *env)
-{
-    const size_t n = domains->n_cuts;
-    bridge *bridges =
-        iccp_alloc(&env->memory, 3 * domains->mesh[0].n_triangles / 2 + 1, sizeof *bridges);
-    uint32_t *leader = iccp_alloc(&env->memory, domains->n_components, sizeof *leader);
-    size_t n_found = 0;
-    icc_status status = iccp_cuts_begin(tree, n, &env->memory);
-    if (bridges == NULL || leader == NULL)
-        status = ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        const size_t n_bridges = list_bridges(bridges, domains);
-        iccp_sort(bridges, n_bridges, sizeof *bridges, compare);
-        iccp_sets_begin(leader, domains->n_components);
-        for (size_t k = 0; k < n_bridges && n_found < n; ++k) {
-            const uint32_t *ends = bridges[k].ends;
-            if (iccp_sets_join(leader, domains->component[ends[0]], domains->component[ends[1]]))
-                memcpy(tree->ends + 2 * n_found++, ends, 2 * sizeof *ends);
-        }
-        status = n_found == n ? ICC_OK : ICC_ERR_TOPOLOGY;
-    }
-    iccp_free(&env->memory, bridges);
-    iccp_free(&env->memory, leader);
-    return status;
-}
 
 /* ---- an isotopy class ---- */
 
@@ -108,7 +45,7 @@ static icc_status describe(iccp_isotopy *isotopy, const iccp_plmap *map,
     const icc_domain *source = domains->domain[0], *target = domains->domain[1];
     iccp_cuts tree;
     iccp_triangulation triangulation = {0};
-    icc_status status = find_tree(&tree, domains, env);
+    icc_status status = iccp_edge_tree(&tree, domains, &domains->mesh[0], env);
     if (status == ICC_OK)
         status = iccp_triangulation_create(&triangulation, &domains->mesh[1], domains->n,
                                            target->vertices, &domains->walls, &env->memory);
@@ -322,7 +259,7 @@ static icc_status compare_moved(bool *kept, const iccp_sequences *before, iccp_s
     icc_status status = move_sequences(moved, moving, &arrived, before, old, target, env);
     if (status != ICC_OK || !arrived)
         return status;
-    status = find_tree(&tree, old, env);
+    status = iccp_edge_tree(&tree, old, &old->mesh[0], env);
     if (status == ICC_OK)
         status = iccp_sequences_of_images(&found, &tree, map, old->domain[0],
                                           &moving->triangulation, env);

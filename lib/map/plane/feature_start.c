@@ -15,6 +15,7 @@
 #include "map/compatible/triangle_quality.h"
 #include "map/isotopy/close_cuts.h"
 #include "map/isotopy/ties.h"
+#include "map/plane/straight_start.h"
 
 #include <math.h>
 #include <string.h>
@@ -230,6 +231,27 @@ static icc_status choose(iccp_plmap *map, const iccp_domain_pair *scene, iccp_cu
     return best < HUGE_VAL ? ICC_OK : ICC_ERR_RESOLUTION;
 }
 
+/* Finds the best start without ties: one without bends, which no tree of cuts surpasses, or else
+ * that of a tree. */
+static icc_status search(iccp_plmap *map, const iccp_domain_pair *scene, iccp_allowance *work,
+                         iccp_feature_report *report, const iccp_env *env)
+{
+    iccp_cutter cutter = {.memory = env->memory};
+    bool found;
+    icc_status status = iccp_straight_start(map, &report->cuts, &found, scene, &work->overlay, env);
+    if (status == ICC_OK && found) {
+        report->n_trees = 1;
+        return thin_out(map, env);
+    }
+    iccp_plmap_free(map);
+    if (status == ICC_OK)
+        status = iccp_cutter_create(&cutter, scene, env);
+    if (status == ICC_OK)
+        status = choose(map, scene, &cutter, work, report, env);
+    iccp_cutter_free(&cutter);
+    return status;
+}
+
 /* Makes the start that has the class of the caller's ties. */
 static icc_status start_from_ties(iccp_plmap *map, const iccp_domain_pair *scene,
                                   const icc_map_options *options, iccp_feature_report *report,
@@ -264,7 +286,6 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
                               iccp_feature_report *report, const iccp_env *env, icc_error *err)
 {
     iccp_domain_pair *scene = &report->scene;
-    iccp_cutter cutter = {.memory = env->memory};
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     *map = (iccp_plmap){.memory = env->memory};
@@ -272,12 +293,8 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
     icc_status status = iccp_domain_pair_create(scene, source, target, env);
     if (status == ICC_OK && options->ties != NULL)
         status = start_from_ties(map, scene, options, report, &part[0], err);
-    else if (status == ICC_OK) {
-        status = iccp_cutter_create(&cutter, scene, env);
-        if (status == ICC_OK)
-            status = choose(map, scene, &cutter, work, report, &part[0]);
-        iccp_cutter_free(&cutter);
-    }
+    else if (status == ICC_OK)
+        status = search(map, scene, work, report, &part[0]);
     if (status == ICC_ERR_RESOLUTION)
         status = iccp_fail(err, status,
                            "no map was found: the features are too close together, or too "
