@@ -52,9 +52,6 @@ run 0 map -s cube-more.obj -t moved-more.obj --mesh in.mesh --target-mesh out.me
 close_to images expected 1e-15
 run 0 map -s cube-more.obj -t moved-more.obj -p points -o images
 run 0 map -s cube-more.obj -t moved-more.obj --mesh in.mesh -p points -o images
-if command -v tetgen >/dev/null; then
-    run 0 map -s cube-more.obj -t moved-more.obj --mesher tetgen -p points -o images
-fi
 
 sed 's/^0.5 0.5 0.5 0$/0 0.5 0.25 0/' in.mesh >flat.mesh
 run 1 map -s cube.obj -t moved.obj --mesh flat.mesh --target-mesh out.mesh -p points
@@ -73,7 +70,7 @@ says 'there are no tetrahedra'
 run 2 check -s cube.obj --mesh in.mesh --target-mesh out.mesh
 says '--target-mesh needs --target'
 
-# Surfaces without a mesh are filled, with whatever programs there are.
+# Surfaces without a mesh are filled, whatever programs there are.
 printf '0.51 0.52 0.53\n' >inner
 printf '#!/bin/sh\nPATH=/nowhere exec "%s" "$@"\n' "$tool" >bare
 chmod +x bare
@@ -90,19 +87,5 @@ run 0 info -s cube.obj
 holds out 'method      foliation, certified'
 run 0 map -s cube.obj -t moved.obj --mesh in.mesh -p inner -o images
 run 0 map -s cube.obj -t moved.obj --method field -n 12 -p inner -o images
-run 1 map -s cube.obj -t moved.obj --mesher tetgen -p inner
-says 'libicc: cube.obj: tetgen is not installed'
-run 2 map -s cube.obj -t moved.obj --mesher gmsh -p inner
 tool=$real
-
-# tetgen, where it is; the cube has no vertex inside, but it may add some.
-if command -v tetgen >/dev/null; then
-    run 0 map -s cube.obj -t moved.obj --mesher tetgen -p points -o images
-    run 0 map -s cube.obj -t moved.obj --mesher tetgen --inverse -p images -o back
-    close_to back points 1e-12
-    run 0 check -s cube.obj -t moved.obj --mesher tetgen
-    holds out certified
-else
-    echo "tetgen is not installed: meshes of its making are not tested"
-fi
 finish

@@ -60,16 +60,9 @@ size_t system_processors(void); /* at least 1 */
 /* The number of columns if stderr is a terminal, else 0. */
 int system_columns(void);
 
-/* ---- this program, and others */
+/* ---- words */
 
 /* Prints a word on stdout, quoted for the system's shell where it needs quotes. */
 void system_print_word(const char *text);
-
-bool system_has_program(const char *name);
-
-/* Runs a program without a shell, so that no argument can be taken as a command, and hides its
- * output. `arguments` begin with the program's name and end with NULL. Returns its exit status, or
- * -1 with errno set. */
-int system_run(char *const *arguments);
 
 #endif

@@ -5,18 +5,13 @@
 
 #include "base/allocate.h"
 
-#include <errno.h>
 #include <fcntl.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
-extern char **environ;
 
 void system_begin(void)
 {
@@ -143,38 +138,4 @@ void system_print_word(const char *text)
     for (const char *c = text; *c != '\0'; c++)
         fputs(*c == '\'' ? "'\\''" : (char[]){*c, '\0'}, stdout);
     putchar('\'');
-}
-
-bool system_has_program(const char *name)
-{
-    const char *path = getenv("PATH");
-    char file[4096];
-    while (path != NULL && *path != '\0') {
-        int length = (int)strcspn(path, ":");
-        if (snprintf(file, sizeof file, "%.*s/%s", length, path, name) < (int)sizeof file &&
-            length > 0 && access(file, X_OK) == 0)
-            return true;
-        path += length + (path[length] == ':');
-    }
-    return false;
-}
-
-int system_run(char *const *arguments)
-{
-    posix_spawn_file_actions_t actions;
-    pid_t child;
-    int state, code = posix_spawn_file_actions_init(&actions);
-    for (int output = 1; code == 0 && output <= 2; output++)
-        code = posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
-    if (code == 0)
-        code = posix_spawnp(&child, arguments[0], &actions, NULL, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (code != 0) {
-        errno = code;
-        return -1;
-    }
-    while (waitpid(child, &state, 0) < 0)
-        if (errno != EINTR)
-            return -1;
-    return WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
 }

@@ -22,7 +22,7 @@
  * - Pictures: cage_picture.c, alpha_contours.h finds outlines, thin_polygons.h thins them.
  * - Features: cage_features.h, ties cage_ties.h. Degrees: cage_degrees.h. Defects: cage_defects.h.
  * - Surfaces: cage_surface.c reads, weld.h joins vertices, mend.h mends scans (sides.h finds which
- *   triangles meet), surface_write.h writes, filling.h and tetgen.c fill. Frames of an animation: cage_between.h.
+ *   triangles meet), surface_write.h writes, filling.h reads their insides. Frames of an animation: cage_between.h.
  *
  * A format is a file cage_NAME.c with one reader (cage_readers.h). Begin with cage_read.c. */
 #ifndef CAGE_H

@@ -22,7 +22,7 @@ void filling_free(filling *f)
 }
 
 /* In the plane a cage without facets is a ring. */
-void filling_take_facets(filling *out, const cage *c)
+static void take_facets(filling *out, const cage *c)
 {
     out->n_facets = c->n_facets > 0 ? c->n_facets : c->n;
     out->facets = need(out->n_facets, c->dim * sizeof *out->facets);
@@ -50,7 +50,7 @@ static void arrange(filling *out, const cage *c, size_t n_points, const double *
     }
     for (size_t i = 0; i < n * (dim + 1); i++)
         out->corners[i] = place[corners[i]];
-    filling_take_facets(out, c);
+    take_facets(out, c);
     free(place);
 }
 

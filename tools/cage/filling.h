@@ -1,5 +1,5 @@
 /* The inside of a cage as a conforming mesh: triangles in the plane, tetrahedra in space. The mesh
- * is the caller's. In space the program tetgen can make it on request. */
+ * is the caller's. */
 #ifndef FILLING_H
 #define FILLING_H
 
@@ -19,16 +19,6 @@ typedef struct filling {
  * empty. */
 bool filling_read(filling *out, const cage *c, const char *text, size_t n, problem *wrong);
 
-/* True if the program tetgen can be run. */
-bool filling_can_make(void);
-
-/* Lets tetgen fill a closed surface, which stays unchanged. False: see `wrong`, and `out` is
- * empty. */
-bool filling_make(filling *out, const cage *c, problem *wrong);
-
 void filling_free(filling *f);
-
-/* Copies the facets of the cage. Used by both functions. */
-void filling_take_facets(filling *out, const cage *c);
 
 #endif

@@ -34,7 +34,7 @@ typedef struct args {
     char **operands; /* moved to the front of argv */
     size_t n_operands;
     /* how charts and maps are made; 0 is the library's choice */
-    int32_t method, map, mesher, tree, solver, cells, threads;
+    int32_t method, map, tree, solver, cells, threads;
     function_choice functions[MAX_FUNCTIONS];
     size_t n_functions;
     int32_t improve; /* limit of steps; -1: the library's choice */
@@ -86,7 +86,6 @@ typedef struct args {
 enum { SIDE_SOURCE = 1, SIDE_TARGET, SIDE_BOTH };
 
 /* The program that fills surfaces in space. */
-enum { MESHER_OWN = 1, MESHER_TETGEN };
 
 /* Policies for parts outside the cage. */
 enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };

@@ -1,4 +1,4 @@
-/* Makes domains with a mesh, from a file, by tetgen or by the library. */
+/* Makes domains with a mesh, from a file or by the library. */
 #include "job/fill.h"
 
 #include "base/allocate.h"
@@ -17,17 +17,12 @@ static bool given(const job *j)
     return j->args->mesh != NULL || j->args->target_mesh != NULL;
 }
 
-static bool by_tetgen(const job *j)
-{
-    return j->args->mesher == MESHER_TETGEN;
-}
-
 /* The library fills the surfaces of a map by itself, but those of a chart only on request. */
 static bool wanted(const job *j)
 {
     bool suits = j->args->method == 0 || j->args->method == ICC_METHOD_FOLIATION;
     bool solid = job_dim(j) == 3 && j->cages[0].cells == NULL && suits;
-    return given(j) || (solid && (by_tetgen(j) || j->args->target == NULL));
+    return given(j) || (solid && j->args->target == NULL);
 }
 
 static int check(const job *j)
@@ -82,14 +77,6 @@ static int read_filling(filling *out, const job *j, const cage *c, size_t side)
     return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
 }
 
-static int fill_by_tetgen(filling *out, job *j, const cage *c, size_t side)
-{
-    problem wrong = {0, "tetgen is not installed"};
-    return filling_can_make() && filling_make(out, c, &wrong)
-               ? DONE
-               : failed(job_file(j, (int)side + 1), 0, "%s", wrong.text);
-}
-
 /* Makes a domain from a mesh. *regions becomes false if its regions touch and are left out. */
 static icc_status make_domain(icc_domain **out, job *j, const char *name, const filling *f,
                               bool *regions, icc_error *err)
@@ -117,20 +104,18 @@ static icc_status make_domain(icc_domain **out, job *j, const char *name, const 
     return status;
 }
 
-/* Makes a domain from the mesh that is read, or from tetgen's. */
+/* Makes a domain from the mesh that is read. */
 static int make_from(icc_domain **out, job *j, size_t side, bool *regions)
 {
     filling f = {0};
     icc_error err = {.size = sizeof err, .index = -1};
     const char *name = mesh_name(j, side);
     cage used = used_part(&j->cages[side]);
-    int result =
-        name != NULL ? read_filling(&f, j, &used, side) : fill_by_tetgen(&f, j, &used, side);
+    int result = read_filling(&f, j, &used, side);
     cage_free(&used);
     if (result == DONE && make_domain(out, j, name, &f, regions, &err) != ICC_OK) {
         progress_end(&j->bar);
-        result = failed(name != NULL ? name : job_file(j, (int)side + 1), 0, "%s%s",
-                        name != NULL ? "" : "the mesh that tetgen has made: ", err.message);
+        result = failed(name, 0, "%s", err.message);
     }
     filling_free(&f);
     return result;
@@ -139,7 +124,7 @@ static int make_from(icc_domain **out, job *j, size_t side, bool *regions)
 static int make_filled(icc_domain **out, job *j, size_t side, bool *regions)
 {
     icc_error err = {.size = sizeof err, .index = -1};
-    if (mesh_name(j, side) != NULL || (job_dim(j) == 3 && by_tetgen(j)))
+    if (mesh_name(j, side) != NULL)
         return make_from(out, j, side, regions);
     if (job_dim(j) != 3)
         return failed(

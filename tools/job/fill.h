@@ -4,7 +4,7 @@
 
 #include "job/job.h"
 
-/* Makes the domains. They get a mesh if the options ask for it: a given one, or tetgen's. In space,
+/* Makes the domains. They get a mesh if the options ask for it. In space,
  * a cage without a target also gets one if the method uses it. Does nothing the second time.
  * Returns DONE, or FAILED with a message on stderr. */
 int fill_domains(job *j);

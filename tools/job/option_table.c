@@ -18,7 +18,6 @@ const choice functions[] = {{"decay", ICC_FUNCTION_DECAY},
                             {NULL, 0}};
 const choice solvers[] = {
     {"direct", ICC_SOLVER_DIRECT}, {"iterative", ICC_SOLVER_ITERATIVE}, {NULL, 0}};
-const choice meshers[] = {{"libicc", MESHER_OWN}, {"tetgen", MESHER_TETGEN}, {NULL, 0}};
 const choice samplings[] = {{"blue", ICC_SAMPLING_BLUE}, {"grid", ICC_SAMPLING_GRID}, {NULL, 0}};
 const choice weightings[] = {{"qp", ICC_WEIGHTS_QP},
                              {"equality", ICC_WEIGHTS_EQUALITY},
@@ -792,15 +791,6 @@ const option options[] = {
      .offset = AT(target_mesh),
      .value = "FILE",
      .help = "mesh of the target's inside; without it libicc fills the surface"},
-    {.name = "mesher",
-     .group = OPTIONS_RARE,
-     .kind = OPTION_CHOICE,
-     .commands = FOR_CHARTS,
-     .offset = AT(mesher),
-     .choices = meshers,
-     .value = "NAME",
-     .help =
-         "program that fills surfaces in space: libicc (default), or tetgen if it is installed"},
     {.name = "method",
      .letter = 'm',
      .group = OPTIONS_RARE,

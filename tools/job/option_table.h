@@ -48,7 +48,7 @@ typedef struct option {
     const char *value, *help;
 } option;
 
-extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[], samplings[],
+extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[],
     weightings[], kernels[], initials[], outsides[], turnings[], sides[], requirements[],
     fallbacks[], slidings[];
 

@@ -11,7 +11,7 @@ bool check_is_alone(const check *c)
 bool check_domain_only(const check *c)
 {
     const args *a = c->job.args;
-    bool asks_for_chart = a->method != 0 || a->mesh != NULL || a->mesher != 0 || a->n_maximum > 0;
+    bool asks_for_chart = a->method != 0 || a->mesh != NULL || a->n_maximum > 0;
     return check_is_alone(c) && (c->job.cages[0].cells != NULL || !asks_for_chart);
 }
 
