@@ -2,6 +2,7 @@
 #include "base/edits.h"
 
 #include "base/allocate.h"
+#include "base/decimal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -29,12 +30,8 @@ void edits_put_text(edits *e, const char *text)
 
 void edits_put_number(edits *e, double value)
 {
-    char text[32];
-    snprintf(text, sizeof text, "%.15g", value);
-    double read = strtod(text, NULL);
-    if (read < value || read > value)
-        snprintf(text, sizeof text, "%.17g", value);
-    edits_put_text(e, text);
+    char text[DECIMAL_ROOM];
+    edits_put(e, decimal_write_short(text, value), text);
 }
 
 static int by_begin(const void *a, const void *b)

@@ -1,9 +1,10 @@
-/* Checks the grammar of a number before strtod() converts it. */
+/* Checks the grammar of a number before it is converted. */
 #include "base/number.h"
+
+#include "base/decimal.h"
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 static bool is_digit(char c)
@@ -68,7 +69,7 @@ number_kind number_read(const char **cursor, double *value)
         *cursor += special;
         return special > 0 ? NUMBER_NOT_FINITE : NUMBER_BAD;
     }
-    *value = strtod(*cursor, NULL);
+    *value = decimal_read(*cursor);
     *cursor = end;
     return isfinite(*value) ? NUMBER_OK : NUMBER_NOT_FINITE;
 }

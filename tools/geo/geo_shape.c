@@ -2,6 +2,7 @@
 #include "geo/geo_shape.h"
 
 #include "base/allocate.h"
+#include "base/decimal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,7 +37,7 @@ static bool read_position(geo_shape *out, const char *text, const char **cursor)
         return false;
     for (size_t k = 0; (number = geo_next_number(p, &end)) != NULL; k++, p = end)
         if (k < 2)
-            xy[k] = strtod(number, NULL);
+            xy[k] = decimal_read(number);
     p = skip_blanks(p);
     if (*p != ']' || !isfinite(xy[0]) || !isfinite(xy[1]))
         return false;

@@ -1,6 +1,8 @@
 /* Reads and writes tables of points. */
 #include "job/point_file.h"
 
+#include "base/decimal.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -49,11 +51,12 @@ int rows_write(const char *name, size_t n, size_t columns, const double *values)
     outfile file;
     if (!outfile_open(&file, name))
         return FAILED;
+    char text[DECIMAL_ROOM];
     for (size_t i = 0; i < n * columns; i++) {
         if (isnan(values[i]))
             fputs("nan", file.stream);
         else
-            fprintf(file.stream, "%.17g", values[i]);
+            fwrite(text, 1, decimal_write(text, values[i]), file.stream);
         fputc((i + 1) % columns == 0 ? '\n' : ' ', file.stream);
     }
     return outfile_close(&file) ? DONE : FAILED;
