@@ -3,6 +3,7 @@
 #include "geo/cage_grid.h"
 
 #include "base/allocate.h"
+#include "base/extremes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,21 +20,22 @@ static range cells_between(const cage_grid *g, size_t k, double low, double high
     double last = (double)g->n[k] - 1;
     double from = floor((low - g->near - g->corner[k]) / g->cell[k]),
            to = floor((high + g->near - g->corner[k]) / g->cell[k]);
-    return (range){from > 0 ? (size_t)fmin(from, last) : 0, to > 0 ? (size_t)fmin(to, last) : 0};
+    return (range){from > 0 ? (size_t)lesser(from, last) : 0,
+                   to > 0 ? (size_t)lesser(to, last) : 0};
 }
 
 /* The cells of a row that a segment passes. A segment that reaches far beyond the cage counts in
  * all cells between its ends, because rounding would hide where exactly it passes. */
 static range cells_of_row(const cage_grid *g, size_t row, const double a[2], const double b[2])
 {
-    double dx = b[0] - a[0], dy = b[1] - a[1], low = fmin(a[0], b[0]), high = fmax(a[0], b[0]);
+    double dx = b[0] - a[0], dy = b[1] - a[1], low = lesser(a[0], b[0]), high = greater(a[0], b[0]);
     double far = 1e3 * (g->cage->size + g->near);
     if (fabs(dy) > 0 && fabs(dx) < far && fabs(dy) < far) {
         double y = g->corner[1] + (double)row * g->cell[1];
         double s = (y - 2 * g->near - a[1]) / dy, t = (y + g->cell[1] + 2 * g->near - a[1]) / dy;
-        double x = a[0] + fmin(fmax(s, 0), 1) * dx, z = a[0] + fmin(fmax(t, 0), 1) * dx;
-        low = fmin(x, z);
-        high = fmax(x, z);
+        double x = a[0] + lesser(greater(s, 0), 1) * dx, z = a[0] + lesser(greater(t, 0), 1) * dx;
+        low = lesser(x, z);
+        high = greater(x, z);
     }
     return cells_between(g, 0, low, high);
 }
@@ -42,7 +44,7 @@ static range cells_of_row(const cage_grid *g, size_t row, const double a[2], con
 static void enter_edge(cage_grid *g, uint32_t edge, size_t *fill)
 {
     const double *a = cage_end(g->cage, edge, 0), *b = cage_end(g->cage, edge, 1);
-    range rows = cells_between(g, 1, fmin(a[1], b[1]), fmax(a[1], b[1]));
+    range rows = cells_between(g, 1, lesser(a[1], b[1]), greater(a[1], b[1]));
     for (size_t row = rows.first; row <= rows.last; row++) {
         range columns = cells_of_row(g, row, a, b);
         for (size_t i = columns.first; i <= columns.last; i++) {
@@ -59,7 +61,7 @@ void cage_grid_make(cage_grid *out, const carrier *cage, double near)
     *out = (cage_grid){.cage = cage, .near = near, .n = {side, side}};
     for (size_t k = 0; k < 2; k++) {
         out->corner[k] = cage->lower[k];
-        out->cell[k] = fmax(cage->upper[k] - cage->lower[k], near) / (double)side;
+        out->cell[k] = greater(cage->upper[k] - cage->lower[k], near) / (double)side;
     }
     size_t n_cells = side * side;
     out->starts = need(n_cells + 1, sizeof *out->starts);
@@ -89,8 +91,8 @@ void cage_grid_free(cage_grid *grid)
 static bool misses_box(const cage_grid *g, const double a[2], const double b[2])
 {
     for (size_t k = 0; k < 2; k++)
-        if (fmax(a[k], b[k]) < g->cage->lower[k] - g->near ||
-            fmin(a[k], b[k]) > g->cage->upper[k] + g->near)
+        if (greater(a[k], b[k]) < g->cage->lower[k] - g->near ||
+            lesser(a[k], b[k]) > g->cage->upper[k] + g->near)
             return true;
     return false;
 }
@@ -121,7 +123,7 @@ void cage_grid_ask(cage_grid *g, const double a[2], const double b[2])
     begin_question(g);
     if (misses_box(g, a, b))
         return;
-    range rows = cells_between(g, 1, fmin(a[1], b[1]), fmax(a[1], b[1]));
+    range rows = cells_between(g, 1, lesser(a[1], b[1]), greater(a[1], b[1]));
     for (size_t row = rows.first; row <= rows.last; row++)
         answer(g, row, cells_of_row(g, row, a, b));
 }

@@ -3,6 +3,7 @@
 #include "geo/densify.h"
 
 #include "base/allocate.h"
+#include "base/extremes.h"
 #include "geo/crossing.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ static double distance_to_segment(const double a[2], const double b[2], const do
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
     double t = square > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square : 0;
-    t = fmin(fmax(t, 0), 1);
+    t = lesser(greater(t, 0), 1);
     return hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
 }
 
@@ -154,7 +155,7 @@ static size_t farthest_cut(const map_edges *e, const double ends[4], span part, 
         double off = distance_to_segment(cut_image(e, ends, part.first),
                                          cut_image(e, ends, part.last), cut_image(e, ends, i));
         best = off > most ? i : best;
-        most = fmax(off, most);
+        most = greater(off, most);
     }
     return best;
 }

@@ -122,39 +122,79 @@ static void find_nodes(layer_reader *r)
     }
 }
 
+/* Nodes at ends of sides while they are welded. The tree is made if it is needed. */
+typedef struct welding {
+    layer_reader *reader;
+    bool *ends;
+    double *dots;
+    segment_tree tree;
+} welding;
+
+static bool is_close(const welding *w, uint32_t i, uint32_t j)
+{
+    const double *p = w->reader->out->nodes + 2 * (size_t)i;
+    const double *q = w->reader->out->nodes + 2 * (size_t)j;
+    return fabs(p[1] - q[1]) <= w->reader->length && point_distance(p, q) <= w->reader->length;
+}
+
+/* Welds a later node to node i if it is close. */
+static void weld(welding *w, uint32_t i, uint32_t j)
+{
+    if (j > i && w->ends[j] && w->reader->lead[j] == j && is_close(w, i, j))
+        w->reader->lead[j] = i;
+}
+
+/* Welds nodes that the tree finds. */
+static void weld_by_tree(welding *w, uint32_t i)
+{
+    const geo_layer *l = w->reader->out;
+    if (w->dots == NULL) {
+        w->dots = need(l->n_nodes, 4 * sizeof *w->dots);
+        for (size_t k = 0; k < 4 * l->n_nodes; k++)
+            w->dots[k] = l->nodes[2 * (k / 4) + k % 2];
+        segment_tree_make(&w->tree, l->n_nodes, w->dots, w->reader->length);
+    }
+    segment_tree_ask(&w->tree, w->dots + 4 * (size_t)i, w->dots + 4 * (size_t)i);
+    for (size_t k = 0; k < w->tree.n_found; k++)
+        weld(w, i, w->tree.found[k]);
+}
+
+/* Welds later nodes to node i. Nodes are sorted by x, so those that are close follow it, and they
+ * are usually few. */
+static void weld_to(welding *w, uint32_t i)
+{
+    enum { FEW = 16 };
+    const geo_layer *l = w->reader->out;
+    double reach = l->nodes[2 * (size_t)i] + w->reader->length;
+    uint32_t n = (uint32_t)l->n_nodes, end = i + 1;
+    while (end < n && end - i <= FEW && l->nodes[2 * (size_t)end] <= reach)
+        end++;
+    if (end - i > FEW)
+        weld_by_tree(w, i);
+    else
+        for (uint32_t j = i + 1; j < end; j++)
+            weld(w, i, j);
+}
+
 /* Welds nodes at ends of sides to the first one within the length that is not welded itself. So
  * nothing moves farther than that. */
 static void weld_nodes(layer_reader *r)
 {
-    geo_layer *out = r->out;
-    size_t n = out->n_nodes;
+    size_t n = r->out->n_nodes;
     r->lead = need(n, sizeof *r->lead);
     for (uint32_t i = 0; i < n; i++)
         r->lead[i] = i;
     if (r->n_given == 0 || !(r->length > 0))
         return;
-    double *dots = need(n, 4 * sizeof *dots);
-    bool *ends = need(n, sizeof *ends);
-    segment_tree tree;
-    for (size_t i = 0; i < 4 * n; i++)
-        dots[i] = out->nodes[2 * (i / 4) + i % 2];
+    welding w = {.reader = r, .ends = need(n, sizeof *w.ends)};
     for (size_t i = 0; i < r->n_given; i++)
-        ends[r->given[i].a] = ends[r->given[i].b] = true;
-    segment_tree_make(&tree, n, dots, r->length);
-    for (uint32_t i = 0; i < n; i++) {
-        if (r->lead[i] != i || !ends[i])
-            continue;
-        segment_tree_ask(&tree, dots + 4 * (size_t)i, dots + 4 * (size_t)i);
-        for (size_t k = 0; k < tree.n_found; k++) {
-            uint32_t j = tree.found[k];
-            if (j > i && ends[j] && r->lead[j] == j &&
-                point_distance(dots + 4 * (size_t)i, dots + 4 * (size_t)j) <= r->length)
-                r->lead[j] = i;
-        }
-    }
-    segment_tree_free(&tree);
-    free(dots);
-    free(ends);
+        w.ends[r->given[i].a] = w.ends[r->given[i].b] = true;
+    for (uint32_t i = 0; i < n; i++)
+        if (r->lead[i] == i && w.ends[i])
+            weld_to(&w, i);
+    segment_tree_free(&w.tree);
+    free(w.dots);
+    free(w.ends);
 }
 
 /* ---- sides ---- */
@@ -255,8 +295,10 @@ static void put_into_sides(layer_reader *r)
         memcpy(ends + 4 * i + 2, node_at(out, out->sides[i].b), 2 * sizeof *ends);
     }
     segment_tree_make(&tree, out->n_sides, ends, r->length);
+    /* In the order of the tree, so that questions that follow one another go the same way. */
     for (size_t i = 0; i < 2 * out->n_sides; i++) {
-        uint32_t node = i % 2 == 0 ? out->sides[i / 2].a : out->sides[i / 2].b;
+        const layer_side *s = &out->sides[tree.order[i / 2]];
+        uint32_t node = i % 2 == 0 ? s->a : s->b;
         if (!asked[node])
             add_touches(r, &tree, node);
         asked[node] = true;

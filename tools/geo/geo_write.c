@@ -1,6 +1,8 @@
 /* Writes positions with the original's brackets, blanks and further numbers. */
 #include "geo/geo_write.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +15,8 @@ geo_box geo_box_empty(void)
 void geo_box_add(geo_box *box, const double lower[2], const double upper[2])
 {
     for (size_t k = 0; k < 2; k++) {
-        box->lower[k] = fmin(box->lower[k], lower[k]);
-        box->upper[k] = fmax(box->upper[k], upper[k]);
+        box->lower[k] = lesser(box->lower[k], lower[k]);
+        box->upper[k] = greater(box->upper[k], upper[k]);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "geo/noding.h"
 
 #include "base/allocate.h"
+#include "base/extremes.h"
 #include "base/orientation.h"
 #include "geo/crossing.h"
 
@@ -15,11 +16,11 @@ void noding_start(noding *out, const carrier *cage)
 {
     double largest = 0;
     for (size_t k = 0; k < 2; k++)
-        largest = fmax(largest, fmax(fabs(cage->lower[k]), fabs(cage->upper[k])));
+        largest = greater(largest, greater(fabs(cage->lower[k]), fabs(cage->upper[k])));
     *out = (noding){.cage = cage};
     /* About a hundred roundings of the cage's coordinates. Crossings are computed to a few
      * roundings. */
-    cage_grid_make(&out->grid, cage, fmax(1e-13 * cage->size, 128 * DBL_EPSILON * largest));
+    cage_grid_make(&out->grid, cage, greater(1e-13 * cage->size, 128 * DBL_EPSILON * largest));
 }
 
 void noding_free(noding *x)
@@ -34,7 +35,7 @@ static double nearest_on(const double a[2], const double b[2], const double p[2]
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
     double t = square > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square : 0;
-    *share = fmin(fmax(t, 0), 1);
+    *share = lesser(greater(t, 0), 1);
     return hypot(p[0] - a[0] - *share * dx, p[1] - a[1] - *share * dy);
 }
 
@@ -197,7 +198,7 @@ static bool is_in(noding *x, const geo_node *a, const geo_node *b)
         double t = k / 4.0, p[2];
         for (size_t axis = 0; axis < 2; axis++)
             p[axis] = (1 - t) * a->at[axis] + t * b->at[axis];
-        if (noding_is_outside(x, p, fmax(x->cage->snap, x->grid.near)))
+        if (noding_is_outside(x, p, greater(x->cage->snap, x->grid.near)))
             return false;
     }
     return true;

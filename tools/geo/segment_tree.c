@@ -3,6 +3,7 @@
 #include "geo/segment_tree.h"
 
 #include "base/allocate.h"
+#include "base/extremes.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -24,16 +25,16 @@ static int by_code(const void *a, const void *b)
 static void box_of(const double *s, double near, double box[4])
 {
     for (size_t k = 0; k < 2; k++) {
-        box[k] = fmin(s[k], s[2 + k]) - near;
-        box[2 + k] = fmax(s[k], s[2 + k]) + near;
+        box[k] = lesser(s[k], s[2 + k]) - near;
+        box[2 + k] = greater(s[k], s[2 + k]) + near;
     }
 }
 
 static void join(double box[4], const double other[4])
 {
     for (size_t k = 0; k < 2; k++) {
-        box[k] = fmin(box[k], other[k]);
-        box[2 + k] = fmax(box[2 + k], other[2 + k]);
+        box[k] = lesser(box[k], other[k]);
+        box[2 + k] = greater(box[2 + k], other[2 + k]);
     }
 }
 
@@ -44,7 +45,7 @@ static uint64_t morton_code(const double box[4], const double all[4])
     uint64_t code = 0, cell[2];
     for (size_t k = 0; k < 2; k++) {
         double size = all[2 + k] - all[k], share = (box[k] / 2 + box[2 + k] / 2 - all[k]) / size;
-        cell[k] = size > 0 && share > 0 ? (uint64_t)ldexp(fmin(share, 1), BITS) : 0;
+        cell[k] = size > 0 && share > 0 ? (uint64_t)ldexp(lesser(share, 1), BITS) : 0;
     }
     for (int bit = BITS; bit >= 0; bit--)
         code = code << 2 | (cell[0] >> bit & 1) << 1 | (cell[1] >> bit & 1);
@@ -99,12 +100,17 @@ void segment_tree_free(segment_tree *tree)
     *tree = (segment_tree){0};
 }
 
+static bool holds(const double box[4], const double p[2])
+{
+    return p[0] >= box[0] && p[0] <= box[2] && p[1] >= box[1] && p[1] <= box[3];
+}
+
 /* True if a segment comes close to a box: their own boxes overlap, and the line does not pass
  * beside the box. */
 static bool meets(const double box[4], const double a[2], const double b[2])
 {
     for (size_t k = 0; k < 2; k++)
-        if (fmax(a[k], b[k]) < box[k] || fmin(a[k], b[k]) > box[2 + k])
+        if (greater(a[k], b[k]) < box[k] || lesser(a[k], b[k]) > box[2 + k])
             return false;
     double dx = b[0] - a[0], dy = b[1] - a[1];
     double x = box[0] / 2 + box[2] / 2 - a[0], y = box[1] / 2 + box[3] / 2 - a[1];
@@ -116,12 +122,13 @@ void segment_tree_ask(segment_tree *tree, const double a[2], const double b[2])
 {
     enum { MAX_DEPTH = 64 };
     size_t stack[MAX_DEPTH], n = 0;
+    bool is_point = a == b;
     tree->n_found = 0;
     if (tree->n > 0)
         stack[n++] = 1;
     while (n > 0) {
         size_t at = stack[--n];
-        if (!meets(tree->boxes[at], a, b))
+        if (!(is_point ? holds(tree->boxes[at], a) : meets(tree->boxes[at], a, b)))
             continue;
         if (at < tree->n_leaves) {
             stack[n++] = 2 * at;
