@@ -3,7 +3,9 @@
 #include "geo/geo_layer.h"
 
 #include "base/allocate.h"
+#include "base/extremes.h"
 #include "base/orientation.h"
+#include "base/radix_sort.h"
 #include "geo/crossing.h"
 #include "geo/geo_shape.h"
 #include "geo/segment_tree.h"
@@ -87,33 +89,30 @@ static bool read_all(layer_reader *r, const geo_index *index, const char *text, 
 
 /* ---- nodes ---- */
 
-typedef struct placed {
-    double point[2];
-    uint32_t position;
-} placed;
-
-static int by_place(const void *a, const void *b)
+/* Sorts positions by x, then by y. */
+static keyed *sort_positions(size_t n, const double *points)
 {
-    const placed *p = a, *q = b;
-    return point_before(p->point, q->point) ? -1
-           : point_before(q->point, p->point)
-               ? 1
-               : (p->position > q->position) - (p->position < q->position);
+    keyed *list = need(n, sizeof *list);
+    for (size_t i = 0; i < n; i++)
+        list[i] = (keyed){radix_key(points[2 * i + 1]), (uint32_t)i};
+    radix_sort(n, list);
+    for (size_t i = 0; i < n; i++)
+        list[i].key = radix_key(points[2 * (size_t)list[i].item]);
+    radix_sort(n, list);
+    return list;
 }
 
 static void find_nodes(layer_reader *r)
 {
     geo_layer *out = r->out;
-    placed *list = need(out->n, sizeof *list);
+    keyed *list = sort_positions(out->n, r->points);
     out->node = need(out->n, sizeof *out->node);
     out->nodes = need(out->n, 2 * sizeof *out->nodes);
-    for (size_t i = 0; i < out->n; i++)
-        list[i] = (placed){{r->points[2 * i], r->points[2 * i + 1]}, (uint32_t)i};
-    qsort(list, out->n, sizeof *list, by_place);
     for (size_t i = 0; i < out->n; i++) {
-        if (i == 0 || point_before(list[i - 1].point, list[i].point))
-            memcpy(out->nodes + 2 * out->n_nodes++, list[i].point, sizeof list->point);
-        out->node[list[i].position] = (uint32_t)out->n_nodes - 1;
+        const double *point = r->points + 2 * (size_t)list[i].item;
+        if (i == 0 || point_before(out->nodes + 2 * (out->n_nodes - 1), point))
+            memcpy(out->nodes + 2 * out->n_nodes++, point, 2 * sizeof *point);
+        out->node[list[i].item] = (uint32_t)out->n_nodes - 1;
     }
     free(list);
     for (size_t i = 0; i < r->n_given; i++) {
@@ -154,7 +153,7 @@ static void weld_by_tree(welding *w, uint32_t i)
             w->dots[k] = l->nodes[2 * (k / 4) + k % 2];
         segment_tree_make(&w->tree, l->n_nodes, w->dots, w->reader->length);
     }
-    segment_tree_ask(&w->tree, w->dots + 4 * (size_t)i, w->dots + 4 * (size_t)i);
+    segment_tree_ask_box(&w->tree, w->dots + 4 * (size_t)i);
     for (size_t k = 0; k < w->tree.n_found; k++)
         weld(w, i, w->tree.found[k]);
 }
@@ -199,14 +198,25 @@ static void weld_nodes(layer_reader *r)
 
 /* ---- sides ---- */
 
-static int by_nodes(const void *a, const void *b)
+/* Sorts sides by their ends, then by their polygons. */
+static void sort_given(size_t n, given_side *sides)
 {
-    const given_side *x = a, *y = b;
-    if (x->a != y->a)
-        return x->a < y->a ? -1 : 1;
-    if (x->b != y->b)
-        return x->b < y->b ? -1 : 1;
-    return (x->polygon > y->polygon) - (x->polygon < y->polygon);
+    keyed *list = need(n, sizeof *list);
+    given_side *copy = need(n, sizeof *copy);
+    if (n > 0)
+        memcpy(copy, sides, n * sizeof *copy);
+    for (size_t i = 0; i < n; i++)
+        list[i] = (keyed){sides[i].polygon, (uint32_t)i};
+    radix_sort(n, list);
+    for (size_t i = 0; i < n; i++) {
+        const given_side *s = &copy[list[i].item];
+        list[i].key = (uint64_t)s->a << 32 | s->b;
+    }
+    radix_sort(n, list);
+    for (size_t i = 0; i < n; i++)
+        sides[i] = copy[list[i].item];
+    free(copy);
+    free(list);
 }
 
 /* Orders the ends of sides, drops those without length, and sorts. */
@@ -218,8 +228,7 @@ static void sort_sides(given_side *sides, size_t *n_sides, const uint32_t *lead)
         if (a != b)
             sides[n++] = (given_side){a < b ? a : b, a < b ? b : a, sides[i].polygon};
     }
-    if (n > 1)
-        qsort(sides, n, sizeof *sides, by_nodes);
+    sort_given(n, sides);
     *n_sides = n;
 }
 
@@ -257,20 +266,60 @@ static bool lies_on(const double a[2], const double b[2], const double p[2], dou
     return fabs((p[0] - a[0]) * dy - (p[1] - a[1]) * dx) <= length || orientation(a, b, p) == 0;
 }
 
-static void add_touches(layer_reader *r, segment_tree *tree, uint32_t node)
+/* True if a point is in the box of a side, wider by `length`. */
+static bool is_near_box(const double ends[4], const double p[2], double length)
+{
+    for (size_t k = 0; k < 2; k++)
+        if (p[k] < lesser(ends[k], ends[2 + k]) - length ||
+            p[k] > greater(ends[k], ends[2 + k]) + length)
+            return false;
+    return true;
+}
+
+/* Finds the sides among those in tree->found on which a node lies. */
+static void add_touches(layer_reader *r, const segment_tree *tree, const double *ends,
+                        uint32_t node, const double p[2])
 {
     const geo_layer *l = r->out;
-    const double *p = node_at(l, node);
-    segment_tree_ask(tree, p, p);
     for (size_t k = 0; k < tree->n_found; k++) {
-        const layer_side *s = &l->sides[tree->found[k]];
+        size_t side = tree->found[k];
+        const double *a = ends + 4 * side;
         double share;
-        if (s->a == node || s->b == node ||
-            !lies_on(node_at(l, s->a), node_at(l, s->b), p, r->length, &share))
+        if (!is_near_box(a, p, r->length) || l->sides[side].a == node || l->sides[side].b == node ||
+            !lies_on(a, a + 2, p, r->length, &share))
             continue;
         r->touches = grow(r->touches, &r->room_touches, r->n_touches + 1, sizeof *r->touches);
-        r->touches[r->n_touches++] = (touch){tree->found[k], share, node};
+        r->touches[r->n_touches++] = (touch){side, share, node};
     }
+}
+
+/* Finds the sides on which nodes lie. The tree is asked for a few sides at a time, because they are
+ * neighbours in its order. */
+static void find_touches(layer_reader *r, segment_tree *tree, const double *ends)
+{
+    enum { FEW = 4 };
+    const geo_layer *l = r->out;
+    bool *asked = need(l->n_nodes, sizeof *asked);
+    for (size_t first = 0; first < l->n_sides; first += FEW) {
+        size_t end = first + FEW < l->n_sides ? first + FEW : l->n_sides;
+        double box[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        for (size_t i = 2 * first; i < 2 * end; i++)
+            for (size_t k = 0; k < 2; k++) {
+                double x = ends[4 * (size_t)tree->order[i / 2] + 2 * (i % 2) + k];
+                box[k] = lesser(box[k], x);
+                box[2 + k] = greater(box[2 + k], x);
+            }
+        segment_tree_ask_box(tree, box);
+        for (size_t i = 2 * first; i < 2 * end; i++) {
+            const layer_side *s = &l->sides[tree->order[i / 2]];
+            uint32_t node = i % 2 == 0 ? s->a : s->b;
+            if (!asked[node])
+                add_touches(r, tree, ends, node,
+                            ends + 4 * (size_t)tree->order[i / 2] + 2 * (i % 2));
+            asked[node] = true;
+        }
+    }
+    free(asked);
 }
 
 static int by_side(const void *a, const void *b)
@@ -288,24 +337,15 @@ static void put_into_sides(layer_reader *r)
 {
     geo_layer *out = r->out;
     double *ends = need(out->n_sides, 4 * sizeof *ends);
-    bool *asked = need(out->n_nodes, sizeof *asked);
     segment_tree tree;
     for (size_t i = 0; i < out->n_sides; i++) {
         memcpy(ends + 4 * i, node_at(out, out->sides[i].a), 2 * sizeof *ends);
         memcpy(ends + 4 * i + 2, node_at(out, out->sides[i].b), 2 * sizeof *ends);
     }
     segment_tree_make(&tree, out->n_sides, ends, r->length);
-    /* In the order of the tree, so that questions that follow one another go the same way. */
-    for (size_t i = 0; i < 2 * out->n_sides; i++) {
-        const layer_side *s = &out->sides[tree.order[i / 2]];
-        uint32_t node = i % 2 == 0 ? s->a : s->b;
-        if (!asked[node])
-            add_touches(r, &tree, node);
-        asked[node] = true;
-    }
+    find_touches(r, &tree, ends);
     segment_tree_free(&tree);
     free(ends);
-    free(asked);
     if (r->n_touches > 1)
         qsort(r->touches, r->n_touches, sizeof *r->touches, by_side);
     out->on = need(r->n_touches, sizeof *out->on);
@@ -322,16 +362,18 @@ static size_t count_shared(layer_reader *r)
 {
     const geo_layer *l = r->out;
     size_t n = r->n_given, n_shared = 0;
-    for (size_t i = 0; i < n; i++) {
+    const layer_side *s = l->sides;
+    for (size_t i = 0; i < n && r->n_touches > 0; i++) {
         given_side g = r->given[i];
-        const layer_side *s = geo_layer_side(l, g.a, g.b);
-        for (size_t k = 0; s != NULL && k < s->n_on; k++) {
+        s += s->a != g.a || s->b != g.b; /* both lists have the same order */
+        for (size_t k = 0; k < s->n_on; k++) {
             add_given(r, g.a, l->on[s->first_on + k], g.polygon);
             g.a = l->on[s->first_on + k];
         }
         r->given[i] = g;
     }
-    sort_sides(r->given, &r->n_given, r->lead);
+    if (r->n_given > n)
+        sort_sides(r->given, &r->n_given, r->lead);
     for (size_t i = 0, end; i < r->n_given; i = end) {
         bool shared = false;
         for (end = i + 1; end < r->n_given && same_ends(&r->given[i], &r->given[end]); end++)

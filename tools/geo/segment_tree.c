@@ -4,23 +4,12 @@
 
 #include "base/allocate.h"
 #include "base/extremes.h"
+#include "base/radix_sort.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct coded {
-    uint64_t code;
-    uint32_t segment;
-} coded;
-
-static int by_code(const void *a, const void *b)
-{
-    const coded *x = a, *y = b;
-    return x->code != y->code ? (x->code > y->code) - (x->code < y->code)
-                              : (x->segment > y->segment) - (x->segment < y->segment);
-}
 
 static void box_of(const double *s, double near, double box[4])
 {
@@ -56,7 +45,7 @@ static const double EMPTY[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
 static void sort_segments(segment_tree *t, const double *segments)
 {
-    coded *list = need(t->n, sizeof *list);
+    keyed *list = need(t->n, sizeof *list);
     double all[4], box[4];
     memcpy(all, EMPTY, sizeof all);
     for (size_t i = 0; i < t->n; i++) {
@@ -65,11 +54,11 @@ static void sort_segments(segment_tree *t, const double *segments)
     }
     for (size_t i = 0; i < t->n; i++) {
         box_of(segments + 4 * i, 0, box);
-        list[i] = (coded){morton_code(box, all), (uint32_t)i};
+        list[i] = (keyed){morton_code(box, all), (uint32_t)i};
     }
-    qsort(list, t->n, sizeof *list, by_code);
+    radix_sort(t->n, list);
     for (size_t i = 0; i < t->n; i++)
-        t->order[i] = list[i].segment;
+        t->order[i] = list[i].item;
     free(list);
 }
 
@@ -100,9 +89,9 @@ void segment_tree_free(segment_tree *tree)
     *tree = (segment_tree){0};
 }
 
-static bool holds(const double box[4], const double p[2])
+static bool overlaps(const double a[4], const double b[4])
 {
-    return p[0] >= box[0] && p[0] <= box[2] && p[1] >= box[1] && p[1] <= box[3];
+    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
 }
 
 /* True if a segment comes close to a box: their own boxes overlap, and the line does not pass
@@ -118,17 +107,18 @@ static bool meets(const double box[4], const double a[2], const double b[2])
     return !(fabs(dx * y - dy * x) > reach);
 }
 
-void segment_tree_ask(segment_tree *tree, const double a[2], const double b[2])
+/* Finds what comes close to a segment, or what overlaps a box if there is one. */
+static void find(segment_tree *tree, const double *a, const double *b, const double *box)
 {
     enum { MAX_DEPTH = 64 };
     size_t stack[MAX_DEPTH], n = 0;
-    bool is_point = a == b;
     tree->n_found = 0;
     if (tree->n > 0)
         stack[n++] = 1;
     while (n > 0) {
         size_t at = stack[--n];
-        if (!(is_point ? holds(tree->boxes[at], a) : meets(tree->boxes[at], a, b)))
+        const double *own = tree->boxes[at];
+        if (!(box != NULL ? overlaps(own, box) : meets(own, a, b)))
             continue;
         if (at < tree->n_leaves) {
             stack[n++] = 2 * at;
@@ -138,4 +128,14 @@ void segment_tree_ask(segment_tree *tree, const double a[2], const double b[2])
         tree->found = grow(tree->found, &tree->room_found, tree->n_found + 1, sizeof *tree->found);
         tree->found[tree->n_found++] = tree->order[at - tree->n_leaves];
     }
+}
+
+void segment_tree_ask(segment_tree *tree, const double a[2], const double b[2])
+{
+    find(tree, a, b, NULL);
+}
+
+void segment_tree_ask_box(segment_tree *tree, const double box[4])
+{
+    find(tree, NULL, NULL, box);
 }

@@ -17,8 +17,11 @@ typedef struct segment_tree {
 void segment_tree_make(segment_tree *out, size_t n, const double *segments, double near);
 void segment_tree_free(segment_tree *tree);
 
-/* Finds the segments close to a segment, or to a point if a == b, in tree->found. Some that are
- * farther away may be among them. */
+/* Finds the segments close to a segment in tree->found. Some that are farther away may be among
+ * them. */
 void segment_tree_ask(segment_tree *tree, const double a[2], const double b[2]);
+
+/* Finds the segments whose boxes, wider by `near`, overlap a box: lower, upper. */
+void segment_tree_ask_box(segment_tree *tree, const double box[4]);
 
 #endif
