@@ -22,12 +22,13 @@ static const double ALL_WORK = 1.6e6, ALL_PER_FACET = 225;
 iccp_allowance iccp_allow(size_t n_facets)
 {
     const double work = WORK + WORK_PER_FACET * (double)n_facets;
+    const double all = ALL_WORK + ALL_PER_FACET * (double)n_facets;
     return (iccp_allowance){.search.left = work,
-                            .vain = iccp_work_unlimited(),
+                            .vain.left = all,
                             .overlay.left = HUGE_VAL,
                             .improvement.left = work,
                             .relaxing = RELAXING_SHARE * work,
-                            .all = ALL_WORK + ALL_PER_FACET * (double)n_facets};
+                            .all = all};
 }
 
 double iccp_spent(const iccp_allowance *work)

@@ -19,8 +19,8 @@ typedef struct iccp_schedule {
 /* The work of making a map, part by part: how much is left and how much is spent. */
 typedef struct iccp_allowance {
     iccp_work search;  /* trying trees of cuts, or moving the fixed vertices to another target */
-    iccp_work vain;    /* trees of cuts that lead to no map: without a limit unless the caller sets
-                          one, and no part of the whole */
+    iccp_work vain;    /* trees of cuts that lead to no map: as much as the whole, of which they are
+                          no part */
     iccp_work overlay; /* making an overlay and relaxing it */
     iccp_work improvement; /* improving a map that is one-to-one already */
     double relaxing;       /* the most work of steps on an overlay */
