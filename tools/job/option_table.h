@@ -48,9 +48,8 @@ typedef struct option {
     const char *value, *help;
 } option;
 
-extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[],
-    weightings[], kernels[], initials[], outsides[], turnings[], sides[], requirements[],
-    fallbacks[], slidings[];
+extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[], weightings[],
+    kernels[], initials[], outsides[], turnings[], sides[], requirements[], fallbacks[], slidings[];
 
 /* The name of a value that the library returned. */
 const char *choice_name(const choice *choices, int32_t value);
