@@ -121,7 +121,8 @@ typedef struct growth {
     uint32_t *met;             /* of each vertex: the last patch that has it, or NONE */
     uint32_t *inverted;        /* n_inverted triangles of the patch */
     uint32_t n, n_inverted, n_patches, clock;
-    double left; /* pairs of edges or triangles that may still be compared */
+    bool is_over; /* no patch was dissolved since the triangles were looked at */
+    double left;  /* pairs of edges or triangles that may still be compared */
 } growth;
 
 static icc_status reserve(growth *g, const iccp_plmap *map, const iccp_memory *memory)
@@ -189,6 +190,7 @@ static void dissolve(growth *g, uint32_t patch)
             g->patch_of[t] = NONE;
             g->heir[t] = g->n_patches;
         }
+    g->is_over = false;
     g->left -= (double)n;
 }
 
@@ -312,20 +314,35 @@ static bool enclose(growth *g, uint32_t triangle)
     return done;
 }
 
-/* Numbers the patches that are left anew. */
-static void number_patches(growth *g)
+/* Makes patches for all inverted triangles. Those of dissolved patches are looked at again. */
+static bool enclose_all(growth *g)
 {
-    uint32_t *number = g->inverted; /* not needed any more */
-    const size_t n = g->map->corners.n_triangles;
-    memset(number, 0xff, n * sizeof *number);
-    g->n_patches = 0;
-    for (size_t t = 0; t < n; ++t)
+    bool done = true;
+    for (g->is_over = false; done && !g->is_over;) {
+        g->is_over = true;
+        for (uint32_t t = 0; done && t < g->map->corners.n_triangles; ++t)
+            if (g->patch_of[t] == NONE && !is_sound(g->map, t))
+                done = enclose(g, t);
+    }
+    return done;
+}
+
+/* Numbers the patches that are left anew. */
+static icc_status number_patches(growth *g, const iccp_memory *memory)
+{
+    uint32_t *number = iccp_alloc(memory, g->n_patches, sizeof *number), n = 0;
+    if (number == NULL)
+        return ICC_ERR_MEMORY;
+    memset(number, 0xff, g->n_patches * sizeof *number);
+    for (size_t t = 0; t < g->map->corners.n_triangles; ++t)
         if (g->patch_of[t] != NONE) {
             uint32_t *own = &number[g->patch_of[t]];
-            if (*own == NONE)
-                *own = g->n_patches++;
+            *own = *own == NONE ? n++ : *own;
             g->patch_of[t] = *own;
         }
+    g->n_patches = n;
+    iccp_free(memory, number);
+    return ICC_OK;
 }
 
 /* Replaces the triangles that are still inverted and some beside them by overlays. *done becomes
@@ -333,17 +350,14 @@ static void number_patches(growth *g)
 static icc_status overlay_inverted(iccp_plmap *map, bool *done, iccp_work *work,
                                    const iccp_env *env)
 {
-    const uint32_t n = (uint32_t)map->corners.n_triangles;
     growth g;
     icc_status status = reserve(&g, map, &env->memory);
-    for (uint32_t t = 0; status == ICC_OK && *done && t < n; ++t)
-        if (g.patch_of[t] == NONE && !is_sound(map, t)) {
-            *done = enclose(&g, t);
-            t = UINT32_MAX; /* others may have been dissolved */
-        }
-    if (status == ICC_OK && *done && g.n_patches > 0) {
-        number_patches(&g);
-        status = iccp_overlay_triangles(map, g.n_patches, g.patch_of, SIZE_MAX, done, work, env);
+    *done = status == ICC_OK && enclose_all(&g);
+    if (*done && g.n_patches > 0) {
+        status = number_patches(&g, &env->memory);
+        if (status == ICC_OK)
+            status =
+                iccp_overlay_triangles(map, g.n_patches, g.patch_of, SIZE_MAX, done, work, env);
         *done = status == ICC_OK && iccp_plmap_is_positive(map);
     }
     release(&g, &env->memory);
@@ -353,6 +367,6 @@ static icc_status overlay_inverted(iccp_plmap *map, bool *done, iccp_work *work,
 icc_status iccp_mend_inverted(iccp_plmap *map, bool *done, iccp_work *work, const iccp_env *env)
 {
     const icc_status status = flip_inverted(map, &env->memory);
-    *done = status == ICC_OK;
+    *done = false;
     return status == ICC_OK ? overlay_inverted(map, done, work, env) : status;
 }

@@ -100,6 +100,12 @@ START_TEST(some_triangles_are_mended)
         pair_free(&p);
     }
     ck_assert_int_ge(n_found, 15);
+    for (uint64_t seed = 0; seed < 300; ++seed) { /* patches grow into one another */
+        pair p = lattice(2 + seed % 4, 0.45, seed);
+        size_t n;
+        (void)is_found(&p, &n);
+        pair_free(&p);
+    }
 }
 END_TEST
 
