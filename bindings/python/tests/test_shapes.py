@@ -70,6 +70,7 @@ def test_what_is_no_shape(shape):
 
 
 def test_files(tmp_path):
+    pytest.importorskip("geopandas")
     name = tmp_path / "a.geojson"
     name.write_text(json.dumps(polygon([SQUARE])))
     text = tmp_path / "b.txt"
