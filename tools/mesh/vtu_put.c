@@ -178,7 +178,7 @@ bool vtu_is_apart(const vtu *v, const vtu_array *a, problem *wrong)
     return true;
 }
 
-/* By how much the text before a place grows. */
+/* A change in the appended block, and by how many bytes the text up to it grows and shrinks. */
 typedef struct growth {
     size_t at, grown, shrunk;
 } growth;

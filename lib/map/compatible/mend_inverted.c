@@ -32,8 +32,8 @@ static bool is_positive(const iccp_plmap *map, int side, uint32_t a, uint32_t b,
 
 static bool is_sound_on(const iccp_plmap *map, int side, uint32_t triangle)
 {
-    const uint32_t *v = map->corners.vertex + 3 * (size_t)triangle;
-    return is_positive(map, side, v[0], v[1], v[2]);
+    return side == 0 ? iccp_plmap_positive_point(map, triangle)
+                     : iccp_plmap_positive_image(map, triangle);
 }
 
 static bool is_sound(const iccp_plmap *map, uint32_t triangle)

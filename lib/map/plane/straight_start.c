@@ -174,13 +174,13 @@ static void spread(iccp_plmap *map, size_t n, const uint32_t *vertex,
     double *const places[2] = {map->points, map->images};
     for (int side = 0; side < 2; ++side)
         for (size_t v = 0; v < map->n_vertices; ++v) {
-            const double *given = domains->domain[side]->vertices;
-            const uint32_t *ends = domains->domain[0]->facets + 2 * (size_t)map->facet[v];
-            const double *a = given + 2 * (size_t)(v < n ? vertex[v] : ends[0]);
-            const double *b = v < n ? a : given + 2 * (size_t)ends[1];
-            for (int k = 0; k < 2; ++k)
-                places[side][2 * v + (size_t)k] =
-                    v < n ? a[k] : a[k] + map->along[v] * (b[k] - a[k]);
+            const icc_domain *domain = domains->domain[side];
+            const double bary[2] = {1 - map->along[v], map->along[v]};
+            double *place = places[side] + 2 * v;
+            if (v < n)
+                memcpy(place, domain->vertices + 2 * (size_t)vertex[v], 2 * sizeof *place);
+            else
+                iccp_domain_facet_point(domain, map->facet[v], bary, place);
         }
 }
 
