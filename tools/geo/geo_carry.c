@@ -251,7 +251,7 @@ static void add_nodes_between(carriage *c, origin from, uint32_t to)
 static void put_nodes_in(carriage *c)
 {
     const geo_shape *read = &c->read;
-    const uint32_t *node = c->layer.node + c->layer.first[c->object];
+    size_t first = c->layer.first[c->object];
     geo_shape *s = &c->shape;
     s->n = 0;
     s->type = read->type;
@@ -262,10 +262,10 @@ static void put_nodes_in(carriage *c)
         const geo_path *path = &read->paths[p];
         s->paths[p] = (geo_path){.first = s->n, .part = path->part};
         for (size_t i = path->first; i < path->first + path->n; i++) {
-            origin o = {.position = true, .from = i, .node = node[i]};
+            origin o = {.position = true, .from = i, .node = geo_layer_node(&c->layer, first + i)};
             add_vertex(c, o);
             if (i + 1 < path->first + path->n)
-                add_nodes_between(c, o, node[i + 1]);
+                add_nodes_between(c, o, geo_layer_node(&c->layer, first + i + 1));
         }
         s->paths[p].n = s->n - s->paths[p].first;
     }

@@ -16,8 +16,9 @@
  * - A geometry inside the cage is mapped in place, with more vertices where the map bends it
  *   (densify.h, geo_write.c). Others follow the policy: kept, emptied or clipped (geo_cut.c,
  *   clip.h, clip_rings.h).
- * - Polygons that share sides keep sharing them: geo_layer.h finds the sides, map_edges.h cuts
- *   them. Both ask segment_tree.h.
+ * - Polygons that share sides keep sharing them: contacts.h tells whether there may be any,
+ *   geo_layer.h finds the sides, and map_edges.h cuts them. They ask near_sides.h and
+ *   segment_tree.h.
  * - Bounding boxes: geo_bounds.c, last. Edges near a segment: cage_grid.h. The map or maps:
  *   carrier.h.
  *

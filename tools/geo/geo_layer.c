@@ -6,15 +6,15 @@
 #include "base/extremes.h"
 #include "base/orientation.h"
 #include "base/radix_sort.h"
+#include "geo/contacts.h"
 #include "geo/crossing.h"
 #include "geo/geo_shape.h"
+#include "geo/near_sides.h"
 #include "geo/segment_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const size_t NO_POLYGON = UINT32_MAX;
 
 /* A side as it is given: positions, later nodes, and the polygon that it bounds. */
 typedef struct given_side {
@@ -33,6 +33,8 @@ typedef struct layer_reader {
     double length;
     double *points;
     size_t room_points;
+    layer_path *paths;
+    size_t n_paths, room_paths;
     given_side *given;
     size_t n_given, room_given;
     uint32_t *lead; /* of each node: the one to which it is welded, or itself */
@@ -48,21 +50,21 @@ static void add_given(layer_reader *r, uint32_t a, uint32_t b, uint32_t polygon)
     r->given[r->n_given++] = (given_side){a, b, polygon};
 }
 
-/* Adds the positions of a geometry, and its sides as pairs of positions. */
+/* Adds the positions and paths of a geometry. Zeros lose their sign, so that equal positions have
+ * equal bits. */
 static void add_shape(layer_reader *r, const geo_shape *s, uint32_t *n_polygons)
 {
     size_t base = r->out->n;
     r->points = grow(r->points, &r->room_points, 2 * (base + s->n), sizeof *r->points);
-    if (s->n > 0)
-        memcpy(r->points + 2 * base, s->points, 2 * s->n * sizeof *r->points);
+    for (size_t i = 0; i < 2 * s->n; i++)
+        r->points[2 * base + i] = s->points[i] + 0.0;
     for (size_t p = 0; p < s->n_paths && s->type > GEO_MULTI_POINT; p++) {
         bool polygon = s->type > GEO_MULTI_LINE;
         if (polygon && (p == 0 || s->paths[p].part != s->paths[p - 1].part))
             ++*n_polygons;
-        for (size_t i = 1; i < s->paths[p].n; i++) {
-            uint32_t at = (uint32_t)(base + s->paths[p].first + i);
-            add_given(r, at - 1, at, polygon ? *n_polygons : NO_POLYGON);
-        }
+        r->paths = grow(r->paths, &r->room_paths, r->n_paths + 1, sizeof *r->paths);
+        r->paths[r->n_paths++] = (layer_path){base + s->paths[p].first, s->paths[p].n,
+                                              polygon ? *n_polygons : NO_POLYGON};
     }
     r->out->n += s->n;
 }
@@ -102,6 +104,17 @@ static keyed *sort_positions(size_t n, const double *points)
     return list;
 }
 
+/* Lists the sides of all paths as pairs of nodes. */
+static void list_given(layer_reader *r)
+{
+    const uint32_t *node = r->out->node;
+    for (size_t p = 0; p < r->n_paths; p++) {
+        const layer_path *path = &r->paths[p];
+        for (size_t i = path->first + 1; i < path->first + path->n; i++)
+            add_given(r, node[i - 1], node[i], path->polygon);
+    }
+}
+
 static void find_nodes(layer_reader *r)
 {
     geo_layer *out = r->out;
@@ -115,10 +128,7 @@ static void find_nodes(layer_reader *r)
         out->node[list[i].item] = (uint32_t)out->n_nodes - 1;
     }
     free(list);
-    for (size_t i = 0; i < r->n_given; i++) {
-        r->given[i].a = out->node[r->given[i].a];
-        r->given[i].b = out->node[r->given[i].b];
-    }
+    list_given(r);
 }
 
 /* Nodes at ends of sides while they are welded. The tree is made if it is needed. */
@@ -267,59 +277,45 @@ static bool lies_on(const double a[2], const double b[2], const double p[2], dou
 }
 
 /* True if a point is in the box of a side, wider by `length`. */
-static bool is_near_box(const double ends[4], const double p[2], double length)
+static bool is_near_box(const double a[2], const double b[2], const double p[2], double length)
 {
     for (size_t k = 0; k < 2; k++)
-        if (p[k] < lesser(ends[k], ends[2 + k]) - length ||
-            p[k] > greater(ends[k], ends[2 + k]) + length)
+        if (p[k] < lesser(a[k], b[k]) - length || p[k] > greater(a[k], b[k]) + length)
             return false;
     return true;
 }
 
-/* Finds the sides among those in tree->found on which a node lies. */
-static void add_touches(layer_reader *r, const segment_tree *tree, const double *ends,
-                        uint32_t node, const double p[2])
+/* Notes a node that lies on a side. */
+static bool note_touch(void *context, uint32_t node, size_t side)
 {
+    layer_reader *r = context;
     const geo_layer *l = r->out;
-    for (size_t k = 0; k < tree->n_found; k++) {
-        size_t side = tree->found[k];
-        const double *a = ends + 4 * side;
-        double share;
-        if (!is_near_box(a, p, r->length) || l->sides[side].a == node || l->sides[side].b == node ||
-            !lies_on(a, a + 2, p, r->length, &share))
-            continue;
-        r->touches = grow(r->touches, &r->room_touches, r->n_touches + 1, sizeof *r->touches);
-        r->touches[r->n_touches++] = (touch){side, share, node};
-    }
+    const double *p = node_at(l, node), *a = node_at(l, l->sides[side].a),
+                 *b = node_at(l, l->sides[side].b);
+    double share;
+    if (!is_near_box(a, b, p, r->length) || !lies_on(a, b, p, r->length, &share))
+        return true;
+    r->touches = grow(r->touches, &r->room_touches, r->n_touches + 1, sizeof *r->touches);
+    r->touches[r->n_touches++] = (touch){side, share, node};
+    return true;
 }
 
-/* Finds the sides on which nodes lie. The tree is asked for a few sides at a time, because they are
- * neighbours in its order. */
-static void find_touches(layer_reader *r, segment_tree *tree, const double *ends)
+/* Finds the sides on which their nodes lie. Each node is to be the first one of an item, so those
+ * at larger ends are added. */
+static void find_touches(layer_reader *r)
 {
-    enum { FEW = 4 };
     const geo_layer *l = r->out;
-    bool *asked = need(l->n_nodes, sizeof *asked);
-    for (size_t first = 0; first < l->n_sides; first += FEW) {
-        size_t end = first + FEW < l->n_sides ? first + FEW : l->n_sides;
-        double box[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        for (size_t i = 2 * first; i < 2 * end; i++)
-            for (size_t k = 0; k < 2; k++) {
-                double x = ends[4 * (size_t)tree->order[i / 2] + 2 * (i % 2) + k];
-                box[k] = lesser(box[k], x);
-                box[2 + k] = greater(box[2 + k], x);
-            }
-        segment_tree_ask_box(tree, box);
-        for (size_t i = 2 * first; i < 2 * end; i++) {
-            const layer_side *s = &l->sides[tree->order[i / 2]];
-            uint32_t node = i % 2 == 0 ? s->a : s->b;
-            if (!asked[node])
-                add_touches(r, tree, ends, node,
-                            ends + 4 * (size_t)tree->order[i / 2] + 2 * (i % 2));
-            asked[node] = true;
-        }
+    near_item *items = need(l->n_sides, 2 * sizeof *items);
+    double largest = 0;
+    for (size_t i = 0; i < l->n_sides; i++) {
+        items[i] = (near_item){l->sides[i].a, l->sides[i].b};
+        items[l->n_sides + i] = (near_item){l->sides[i].b, l->sides[i].b};
     }
-    free(asked);
+    for (size_t i = 0; i < 2 * l->n_nodes; i++)
+        largest = greater(largest, fabs(l->nodes[i]));
+    near_sides(2 * l->n_sides, items, l->n_nodes, l->nodes, near_rounded(r->length, largest),
+               note_touch, r);
+    free(items);
 }
 
 static int by_side(const void *a, const void *b)
@@ -336,16 +332,7 @@ static int by_side(const void *a, const void *b)
 static void put_into_sides(layer_reader *r)
 {
     geo_layer *out = r->out;
-    double *ends = need(out->n_sides, 4 * sizeof *ends);
-    segment_tree tree;
-    for (size_t i = 0; i < out->n_sides; i++) {
-        memcpy(ends + 4 * i, node_at(out, out->sides[i].a), 2 * sizeof *ends);
-        memcpy(ends + 4 * i + 2, node_at(out, out->sides[i].b), 2 * sizeof *ends);
-    }
-    segment_tree_make(&tree, out->n_sides, ends, r->length);
-    find_touches(r, &tree, ends);
-    segment_tree_free(&tree);
-    free(ends);
+    find_touches(r);
     if (r->n_touches > 1)
         qsort(r->touches, r->n_touches, sizeof *r->touches, by_side);
     out->on = need(r->n_touches, sizeof *out->on);
@@ -384,15 +371,6 @@ static size_t count_shared(layer_reader *r)
     return n_shared;
 }
 
-static void leave_apart(geo_layer *l)
-{
-    free(l->sides);
-    free(l->on);
-    l->sides = NULL;
-    l->on = NULL;
-    l->n_sides = l->n_on = 0;
-}
-
 static void weld_positions(layer_reader *r)
 {
     geo_layer *l = r->out;
@@ -402,6 +380,31 @@ static void weld_positions(layer_reader *r)
     }
 }
 
+/* Finds nodes and sides. False if no polygons share sides, so that they are of no use. */
+static bool join_sides(layer_reader *r, bool joined)
+{
+    if (!joined && !contacts_may_share(r->out->n, r->points, r->n_paths, r->paths, r->length))
+        return false;
+    find_nodes(r);
+    weld_nodes(r);
+    list_sides(r);
+    put_into_sides(r);
+    r->out->n_shared = count_shared(r);
+    return joined || r->out->n_shared > 0;
+}
+
+/* Makes each position a node of its own. */
+static void leave_apart(layer_reader *r)
+{
+    geo_layer *l = r->out;
+    free(l->node);
+    free(l->nodes);
+    free(l->sides);
+    free(l->on);
+    *l = (geo_layer){.first = l->first, .n = l->n, .n_nodes = l->n, .nodes = r->points};
+    r->points = NULL;
+}
+
 bool geo_layer_read(geo_layer *out, const geo_index *index, const char *text, double length,
                     bool joined, problem *wrong)
 {
@@ -409,17 +412,13 @@ bool geo_layer_read(geo_layer *out, const geo_index *index, const char *text, do
     layer_reader r = {.out = out, .length = length};
     bool good = read_all(&r, index, text, wrong);
     if (good) {
-        find_nodes(&r);
-        weld_nodes(&r);
-        list_sides(&r);
-        put_into_sides(&r);
-        out->n_shared = count_shared(&r);
-        if (joined || out->n_shared > 0)
+        if (join_sides(&r, joined))
             weld_positions(&r);
         else
-            leave_apart(out);
+            leave_apart(&r);
     }
     free(r.points);
+    free(r.paths);
     free(r.given);
     free(r.lead);
     free(r.touches);

@@ -1,8 +1,8 @@
 /* The lines and rings of a whole layer as one network: nodes, and sides between them.
  *
- * Positions in the same place are one node. If the layer is a coverage, whose polygons share sides,
- * a node that lies on a side of another polygon becomes a vertex of that side, too. Then neighbours
- * have the same sides, and these have the same images. */
+ * If the layer is a coverage, whose polygons share sides, positions in the same place are one node,
+ * and a node that lies on a side of another polygon becomes a vertex of that side, too. Then
+ * neighbours have the same sides, and these have the same images. */
 #ifndef GEO_LAYER_H
 #define GEO_LAYER_H
 
@@ -18,9 +18,9 @@ typedef struct layer_side {
 typedef struct geo_layer {
     size_t *first; /* for each object of the index: its first position */
     size_t n;
-    uint32_t *node; /* of each position */
+    uint32_t *node; /* of each position; NULL if each is a node of its own */
     size_t n_nodes;
-    double *nodes; /* 2 n_nodes, sorted by x, then by y */
+    double *nodes; /* 2 n_nodes; if `node` is not NULL, sorted by x, then by y */
     /* Of each node: its image, the status of its mapping, and whether it was snapped before */
     double *images;
     icc_status *status;
@@ -40,6 +40,12 @@ typedef struct geo_layer {
 bool geo_layer_read(geo_layer *out, const geo_index *index, const char *text, double length,
                     bool joined, problem *wrong);
 void geo_layer_free(geo_layer *layer);
+
+/* The node of a position. */
+static inline uint32_t geo_layer_node(const geo_layer *layer, size_t position)
+{
+    return layer->node != NULL ? layer->node[position] : (uint32_t)position;
+}
 
 /* Maps the nodes. */
 icc_status geo_layer_map(geo_layer *layer, const carrier *c);
