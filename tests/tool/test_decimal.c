@@ -26,9 +26,15 @@ static void check_written(double value)
 
 static void check_read(const char *text)
 {
-    double read = decimal_read(text), wanted = strtod(text, NULL);
+    char *wanted_end;
+    const char *end;
+    double read = decimal_read(text), wanted = strtod(text, &wanted_end);
     ck_assert_msg(memcmp(&read, &wanted, sizeof read) == 0, "%s: %.17g, not %.17g", text, read,
                   wanted);
+    if (decimal_read_plain(text, &end, &read)) {
+        ck_assert_mem_eq(&read, &wanted, sizeof read);
+        ck_assert_ptr_eq(end, wanted_end);
+    }
 }
 
 /* Numbers of all sizes, with many and with few digits. */
@@ -94,6 +100,10 @@ START_TEST(test_read_words)
                                  "000001.50"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         check_read(words[i]);
+    const char *end;
+    double value;
+    ck_assert(decimal_read_plain("-12.25, 3", &end, &value));
+    ck_assert_str_eq(end, ", 3");
 }
 END_TEST
 

@@ -7,7 +7,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,15 +22,29 @@ typedef struct decimal {
 static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-enum { MAX_POWER = sizeof powers / sizeof *powers - 1 };
 
-static uint64_t integer_power(uint64_t base, int exponent)
-{
-    uint64_t power = 1;
-    for (; exponent > 0; exponent /= 2, base *= base)
-        power *= exponent % 2 == 1 ? base : 1;
-    return power;
-}
+/* Powers of five. */
+static const uint64_t fives[] = {1,
+                                 5,
+                                 25,
+                                 125,
+                                 625,
+                                 3125,
+                                 15625,
+                                 78125,
+                                 390625,
+                                 1953125,
+                                 9765625,
+                                 48828125,
+                                 244140625,
+                                 1220703125,
+                                 6103515625,
+                                 30517578125,
+                                 152587890625,
+                                 762939453125,
+                                 3814697265625,
+                                 19073486328125,
+                                 95367431640625};
 
 /* Computes a b / 2^shift for 0 < shift < 64, rounded to the nearest integer, and to the even one
  * of two. The result has less than 64 bits. */
@@ -60,42 +73,76 @@ static uint64_t take_apart(double value, int *exponent)
 /* Finds the first n digits of a positive number, rounded. False if it is too large or too small. */
 static bool find_digits(decimal *out, double value, int n)
 {
-    int binary, power = 0;
+    int binary;
     if (!(value >= 1e-4 && value < 1e15))
         return false;
-    while (value >= powers[power + 1])
-        power++;
-    /* The doubles 1e-1 to 1e-4 are the least ones that are not below these numbers. */
-    power = value >= 1 ? power : value >= 1e-1 ? -1 : value >= 1e-2 ? -2 : value >= 1e-3 ? -3 : -4;
     uint64_t mantissa = take_apart(value, &binary);
+    /* 2^e is 10^(0.301 e). So this is the power or the one below it. */
+    int power = (binary + DBL_MANT_DIG - 1) * 77 / 256;
+    if (value >= 1)
+        power += value >= powers[power + 1];
+    else
+        /* The doubles 1e-1 to 1e-4 are the least ones that are not below these numbers. */
+        power = value >= 1e-1 ? -1 : value >= 1e-2 ? -2 : value >= 1e-3 ? -3 : -4;
     int k = n - 1 - power, shift = -(binary + k);
     if (shift <= 0 || shift >= 64)
         return false;
-    *out = (decimal){scaled_product(mantissa, integer_power(5, k), shift), n, power};
-    if (out->digits == integer_power(10, n)) {
+    *out = (decimal){scaled_product(mantissa, fives[k], shift), n, power};
+    if (out->digits == fives[n] << n) {
         out->digits /= 10;
         out->exponent++;
     }
     return out->exponent < n;
 }
 
-/* Writes a number in fixed style, without zeros at its end. */
+enum { MOST_DIGITS = 17, BLOCK = 16 };
+
+/* Writes two digits. */
+static void put_pair(char *text, uint32_t pair)
+{
+    static const char pairs[] = "0001020304050607080910111213141516171819"
+                                "2021222324252627282930313233343536373839"
+                                "4041424344454647484950515253545556575859"
+                                "6061626364656667686970717273747576777879"
+                                "8081828384858687888990919293949596979899";
+    memcpy(text, pairs + 2 * (size_t)pair, 2);
+}
+
+static void put_eight(char *text, uint32_t digits)
+{
+    uint32_t high = digits / 10000, low = digits % 10000;
+    put_pair(text, high / 100);
+    put_pair(text + 2, high % 100);
+    put_pair(text + 4, low / 100);
+    put_pair(text + 6, low % 100);
+}
+
+/* Writes a number in fixed style, without zeros at its end. Copies blocks, of which the rest is
+ * overwritten or not used. */
 static size_t put_digits(char *text, decimal d)
 {
-    int n_whole = d.exponent + 1;
-    size_t length = 0;
-    for (; d.n > 1 && d.n > n_whole && d.digits % 10 == 0; d.n--)
-        d.digits /= 10;
-    int n_zeros = n_whole > 0 ? 0 : 1 - n_whole, n_chars = n_zeros + d.n;
-    bool point = n_whole < d.n;
-    length = (size_t)n_chars + point;
-    text[length] = '\0';
-    size_t at = length;
-    for (int i = n_chars; i-- > 0; d.digits /= 10) {
-        text[--at] = (char)('0' + d.digits % 10);
-        if (point && i == (n_whole > 0 ? n_whole : 1))
-            text[--at] = '.';
+    char digits[MOST_DIGITS + BLOCK] = {0};
+    char *first = digits + MOST_DIGITS - d.n;
+    digits[0] = (char)('0' + d.digits / 10000000000000000);
+    put_eight(digits + 1, (uint32_t)(d.digits / 100000000 % 100000000));
+    put_eight(digits + 9, (uint32_t)(d.digits % 100000000));
+    int n_whole = d.exponent + 1, n = d.n, n_zeros = n_whole > 0 ? 0 : -n_whole;
+    while (n > 1 && n > n_whole && first[n - 1] == '0')
+        n--;
+    memcpy(text, first, BLOCK);
+    if (n_whole <= 0) {
+        memcpy(text, "0.000", 5);
+        n_whole = 0;
     }
+    if (n == n_whole) {
+        text[n] = '\0';
+        return (size_t)n;
+    }
+    size_t point = n_whole > 0 ? (size_t)n_whole : 1, part = point + 1 + (size_t)n_zeros;
+    text[point] = '.';
+    memcpy(text + part, first + n_whole, MOST_DIGITS);
+    size_t length = part + (size_t)(n - n_whole);
+    text[length] = '\0';
     return length;
 }
 
@@ -137,26 +184,37 @@ size_t decimal_write_short(char text[DECIMAL_ROOM], double value)
     return read < value || read > value ? decimal_write(text, value) : (size_t)length;
 }
 
-/* Adds the digits at p to a number until it has more of them than a double holds. */
+/* Adds the digits at p to a number. */
 static const char *add_digits(const char *p, uint64_t *digits)
 {
-    for (; *p >= '0' && *p <= '9' && *digits >> DBL_MANT_DIG == 0; p++)
-        *digits = 10 * *digits + (uint64_t)(*p - '0');
+    uint64_t sum = *digits;
+    for (; *p >= '0' && *p <= '9'; p++)
+        sum = 10 * sum + (uint64_t)(*p - '0');
+    *digits = sum;
     return p;
+}
+
+bool decimal_read_plain(const char *p, const char **end, double *value)
+{
+    enum { FIT = 19 }; /* digits, in 64 bits */
+    bool negative = *p == '-';
+    const char *first = p + negative;
+    uint64_t digits = 0;
+    const char *at = add_digits(first, &digits), *part = at;
+    if (*at == '.' && at > first)
+        at = add_digits(++part, &digits);
+    if (!has_exact_quotients() || at == first || at - first > FIT || digits >> DBL_MANT_DIG != 0 ||
+        *at == '.' || (*at | 0x20) == 'e' || (*at | 0x20) == 'x')
+        return false;
+    double size = (double)digits / powers[at - part];
+    *value = negative ? -size : size;
+    *end = at;
+    return true;
 }
 
 double decimal_read(const char *p)
 {
-    bool negative = *p == '-', point;
-    uint64_t digits = 0;
-    const char *end = add_digits(p + negative, &digits), *part = end;
-    point = *end == '.' && end > p + negative;
-    if (point)
-        end = add_digits(++part, &digits);
-    bool whole = end > p + negative && !(*end >= '0' && *end <= '9') && *end != '.' &&
-                 (*end | 0x20) != 'e' && (*end | 0x20) != 'x';
-    if (!has_exact_quotients() || !whole || digits >> DBL_MANT_DIG != 0 || end - part > MAX_POWER)
-        return strtod(p, NULL);
-    double value = (double)digits / powers[end - part];
-    return negative ? -value : value;
+    const char *end;
+    double value;
+    return decimal_read_plain(p, &end, &value) ? value : strtod(p, NULL);
 }

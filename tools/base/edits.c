@@ -30,8 +30,9 @@ void edits_put_text(edits *e, const char *text)
 
 void edits_put_number(edits *e, double value)
 {
-    char text[DECIMAL_ROOM];
-    edits_put(e, decimal_write_short(text, value), text);
+    e->bytes = grow(e->bytes, &e->room_bytes, e->n_bytes + DECIMAL_ROOM, 1);
+    e->n_bytes += decimal_write_short(e->bytes + e->n_bytes, value);
+    e->list[e->n - 1].to = e->n_bytes;
 }
 
 static int by_begin(const void *a, const void *b)

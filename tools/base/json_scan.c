@@ -198,12 +198,33 @@ bool json_scan_more(json_scan *s)
     return true;
 }
 
+/* Skips numbers in a row, in a list, and the commas after them. What follows, or is wrong, is left to
+ * json_scan_next(). */
+static void skip_numbers(json_scan *s)
+{
+    while (s->expected == VALUE || s->expected == VALUE_OR_CLOSE) {
+        skip_blanks(s);
+        size_t begin = s->at;
+        char c = s->text[begin];
+        if ((c != '-' && !(c >= '0' && c <= '9')) || !scan_number(s)) {
+            s->at = begin;
+            return;
+        }
+        skip_blanks(s);
+        s->expected = s->text[s->at] == ',' ? VALUE : COMMA_OR_CLOSE;
+        s->at += s->text[s->at] == ',';
+    }
+}
+
 json_kind json_scan_skip(json_scan *s, json_kind kind)
 {
     size_t begin = s->begin, depth = s->depth;
-    while ((kind == JSON_OBJECT || kind == JSON_LIST) && s->depth >= depth)
+    while ((kind == JSON_OBJECT || kind == JSON_LIST) && s->depth >= depth) {
+        if (s->open[s->depth - 1] == '[')
+            skip_numbers(s);
         if (json_scan_next(s) == JSON_BAD)
             return JSON_BAD;
+    }
     s->begin = begin;
     return kind;
 }

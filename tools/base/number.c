@@ -62,7 +62,12 @@ static size_t special_length(const char *p)
 
 number_kind number_read(const char **cursor, double *value)
 {
-    const char *end = decimal_end(*cursor);
+    const char *end;
+    if (decimal_read_plain(*cursor, &end, value)) {
+        *cursor = end;
+        return NUMBER_OK;
+    }
+    end = decimal_end(*cursor);
     if (end == NULL) {
         size_t special = special_length(*cursor);
         *value = NAN;

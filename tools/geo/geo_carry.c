@@ -312,7 +312,9 @@ static size_t count_jumps(const geo_shape *s)
 static bool carry_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);
-    if (!geo_shape_read(&c->read, o, c->text, c->wrong))
+    const geo_layer *l = &c->layer;
+    const double *known = l->node == NULL ? l->nodes + 2 * l->first[c->object] : NULL;
+    if (!geo_shape_read(&c->read, o, c->text, known, c->wrong))
         return false;
     if (c->read.n == 0)
         return true;

@@ -79,7 +79,7 @@ static bool read_all(layer_reader *r, const geo_index *index, const char *text, 
         r->out->first[i] = r->out->n;
         if (!o->live || o->type >= GEO_GEOMETRIES)
             continue;
-        good = geo_shape_read(&shape, o, text, wrong);
+        good = geo_shape_read(&shape, o, text, NULL, wrong);
         if (good && shape.n >= UINT32_MAX - r->out->n)
             good = spoilt(wrong, 0, "this GeoJSON has too many positions");
         if (good)

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char *skip_blanks(const char *p)
 {
@@ -28,17 +29,35 @@ const char *geo_next_number(const char *p, const char **end)
     return p;
 }
 
+/* Reads the number at p and finds its end. */
+static double read_number(const char *p, const char **end)
+{
+    double value;
+    if (decimal_read_plain(p, end, &value))
+        return value;
+    geo_next_number(p, end);
+    return decimal_read(p);
+}
+
 /* Reads a position at *cursor: two finite numbers, and any further numbers. */
-static bool read_position(geo_shape *out, const char *text, const char **cursor)
+static bool read_position(geo_shape *out, const char *text, const char **cursor,
+                          const double *known)
 {
     const char *p = skip_blanks(*cursor), *begin = p, *number, *end;
     double xy[2] = {NAN, NAN};
     if (*p != '[')
         return false;
-    for (size_t k = 0; (number = geo_next_number(p, &end)) != NULL; k++, p = end)
-        if (k < 2)
-            xy[k] = decimal_read(number);
+    p = skip_blanks(p + 1);
+    for (size_t k = 0; known == NULL && k < 2 && (*p == '-' || (*p >= '0' && *p <= '9')); k++) {
+        xy[k] = read_number(p, &end);
+        p = skip_blanks(end);
+        p = *p == ',' && k == 0 ? skip_blanks(p + 1) : p;
+    }
+    while ((number = geo_next_number(p, &end)) != NULL)
+        p = end;
     p = skip_blanks(p);
+    if (known != NULL)
+        memcpy(xy, known + 2 * out->n, sizeof xy);
     if (*p != ']' || !isfinite(xy[0]) || !isfinite(xy[1]))
         return false;
     *cursor = p + 1;
@@ -57,7 +76,8 @@ static void open_path(geo_shape *out)
 }
 
 /* Reads lists of lists of positions, `levels` deep, without recursion. */
-static bool read_lists(geo_shape *out, const char *text, const char **cursor, int levels)
+static bool read_lists(geo_shape *out, const char *text, const char **cursor, int levels,
+                       const double *known)
 {
     int level = levels;
     const char *p = *cursor;
@@ -79,7 +99,7 @@ static bool read_lists(geo_shape *out, const char *text, const char **cursor, in
                 open_path(out);
         } else {
             *cursor = p;
-            if (!read_position(out, text, cursor))
+            if (!read_position(out, text, cursor, known))
                 return false;
             p = *cursor;
             out->paths[out->n_paths - 1].n++;
@@ -89,7 +109,8 @@ static bool read_lists(geo_shape *out, const char *text, const char **cursor, in
     return true;
 }
 
-bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, problem *wrong)
+bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, const double *known,
+                    problem *wrong)
 {
     static const int levels[] = {0, 1, 1, 2, 2, 3};
     const char *p = text + object->coordinates.begin;
@@ -104,8 +125,8 @@ bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, 
         return true;
     if (object->type == GEO_POINT)
         open_path(out);
-    bool good = object->type == GEO_POINT ? read_position(out, text, &p)
-                                          : read_lists(out, text, &p, levels[object->type]);
+    bool good = object->type == GEO_POINT ? read_position(out, text, &p, known)
+                                          : read_lists(out, text, &p, levels[object->type], known);
     if (object->type == GEO_POINT)
         out->paths[0].n = out->n;
     return good || spoilt(wrong, line_of(text, p),

@@ -20,9 +20,11 @@ typedef struct geo_shape {
     size_t room_spans, room_points, room_paths;
 } geo_shape;
 
-/* Reads the coordinates of a geometry, which have been checked to be JSON. The shape may have been
- * used before, or must be zeros. False: see `wrong`. */
-bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, problem *wrong);
+/* Reads the coordinates of a geometry, which have been checked to be JSON. If its points are known
+ * from an earlier reading, they are copied. The shape may have been used before, or must be zeros.
+ * False: see `wrong`. */
+bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, const double *known,
+                    problem *wrong);
 void geo_shape_free(geo_shape *shape);
 
 /* Finds the next number after p in checked JSON, and its end. NULL before a closing bracket. */

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 table_form rows_of_points(size_t dim)
 {
@@ -51,13 +52,20 @@ int rows_write(const char *name, size_t n, size_t columns, const double *values)
     outfile file;
     if (!outfile_open(&file, name))
         return FAILED;
-    char text[DECIMAL_ROOM];
+    char block[16384];
+    size_t used = 0;
     for (size_t i = 0; i < n * columns; i++) {
-        if (isnan(values[i]))
-            fputs("nan", file.stream);
-        else
-            fwrite(text, 1, decimal_write(text, values[i]), file.stream);
-        fputc((i + 1) % columns == 0 ? '\n' : ' ', file.stream);
+        if (sizeof block - used < DECIMAL_ROOM + 1) {
+            fwrite(block, 1, used, file.stream);
+            used = 0;
+        }
+        if (isnan(values[i])) {
+            memcpy(block + used, "nan", 3);
+            used += 3;
+        } else
+            used += decimal_write(block + used, values[i]);
+        block[used++] = (i + 1) % columns == 0 ? '\n' : ' ';
     }
+    fwrite(block, 1, used, file.stream);
     return outfile_close(&file) ? DONE : FAILED;
 }
