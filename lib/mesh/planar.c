@@ -164,17 +164,46 @@ static void split_edge(iccp_planar *mesh, iccp_corners *corners, uint32_t corner
     iccp_cut_edge(corners, corner, (uint32_t)mesh->n_vertices++);
 }
 
+/* Whether a corner faces an inner edge between two boundary vertices. */
+static bool faces_chord(const iccp_planar *mesh, uint32_t corner)
+{
+    return mesh->twins[corner] != ICCP_NO_NEIGHBOUR &&
+           mesh->triangles[iccp_after(corner)] < mesh->n_boundary &&
+           mesh->triangles[iccp_before(corner)] < mesh->n_boundary;
+}
+
+/* Each cut adds a vertex and two triangles. */
+static icc_status make_room_for_cuts(iccp_planar *mesh)
+{
+    const iccp_memory *memory = &mesh->memory;
+    const size_t n_vertices = mesh->n_vertices, n_triangles = mesh->n_triangles;
+    size_t n = 0;
+    for (uint32_t c = 0; c < 3 * n_triangles; ++c)
+        n += faces_chord(mesh, c) && c < mesh->twins[c];
+    if (n == 0)
+        return ICC_OK;
+    const size_t size = 3 * sizeof *mesh->triangles, room = n_triangles + 2 * n;
+    return iccp_enlarge(memory, &mesh->points, n_vertices, n_vertices + n,
+                        2 * sizeof *mesh->points) &&
+                   iccp_enlarge(memory, &mesh->triangles, n_triangles, room, size) &&
+                   iccp_enlarge(memory, &mesh->twins, n_triangles, room, size)
+               ? ICC_OK
+               : ICC_ERR_MEMORY;
+}
+
 /* New triangles are added at the end, so the loop also visits an edge that a cut moves to a new
  * triangle. */
-static void split_chords(iccp_planar *mesh)
+static icc_status split_chords(iccp_planar *mesh)
 {
-    const uint32_t n = (uint32_t)mesh->n_boundary;
+    const icc_status status = make_room_for_cuts(mesh);
+    if (status != ICC_OK)
+        return status;
     iccp_corners corners = {mesh->triangles, mesh->twins, mesh->n_triangles};
     for (uint32_t c = 0; c < 3 * corners.n_triangles; ++c)
-        if (mesh->twins[c] != ICCP_NO_NEIGHBOUR && mesh->triangles[iccp_after(c)] < n &&
-            mesh->triangles[iccp_before(c)] < n)
+        if (faces_chord(mesh, c))
             split_edge(mesh, &corners, c);
     mesh->n_triangles = corners.n_triangles;
+    return ICC_OK;
 }
 
 void iccp_planar_list_boundary(iccp_planar *mesh)
@@ -227,15 +256,14 @@ static icc_status allocate_rest(iccp_planar *mesh, size_t n_inner, size_t n_tria
     return mesh->triangles != NULL && mesh->twins != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Appends the inner points and makes room for a cut in every chord. There are at most as many
- * chords as boundary vertices. */
+/* Appends the inner points and makes room for the triangles between all points. */
 static icc_status allocate_inside(iccp_planar *mesh, const double *inner, size_t n_inner)
 {
-    const size_t most = 2 * mesh->n_boundary + n_inner;
-    const icc_status status = allocate_rest(mesh, most - mesh->n_boundary, 2 * most);
+    mesh->n_vertices = mesh->n_boundary + n_inner;
+    mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
+    const icc_status status = allocate_rest(mesh, n_inner, mesh->n_triangles);
     if (status == ICC_OK && n_inner > 0)
         memcpy(mesh->points + 2 * mesh->n_boundary, inner, 2 * n_inner * sizeof *inner);
-    mesh->n_vertices = mesh->n_boundary + n_inner;
     return status;
 }
 
@@ -260,11 +288,10 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
         status = iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "the domain cannot be meshed: two of its sides are closer than rounding "
                            "errors of points on them");
-    if (status == ICC_OK) {
-        mesh->n_triangles = 2 * mesh->n_vertices - mesh->n_boundary - 2;
-        split_chords(mesh);
+    if (status == ICC_OK)
+        status = split_chords(mesh);
+    if (status == ICC_OK)
         iccp_planar_list_boundary(mesh);
-    }
     return status;
 }
 
