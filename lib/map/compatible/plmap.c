@@ -6,15 +6,14 @@
 
 #include <string.h>
 
-/* Makes room for half as much again as is needed, so that n cuts cost O(n). On failure the map
- * stays as it is. */
+/* Makes room for so many vertices and triangles in all. On failure the map stays as it is. */
 static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangles)
 {
     const iccp_memory *memory = &map->memory;
     const size_t n = map->n_vertices, n_corners = 3 * map->corners.n_triangles;
     bool is_there = true;
     if (n_vertices > map->vertex_room) {
-        const size_t room = n_vertices + n_vertices / 2;
+        const size_t room = n_vertices;
         is_there &= iccp_enlarge(memory, &map->points, n, room, 2 * sizeof *map->points);
         is_there &= iccp_enlarge(memory, &map->images, n, room, 2 * sizeof *map->images);
         is_there &= iccp_enlarge(memory, &map->fixed, n, room, sizeof *map->fixed);
@@ -24,14 +23,18 @@ static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangl
             map->vertex_room = room;
     }
     if (n_triangles > map->triangle_room) {
-        const size_t room = n_triangles + n_triangles / 2;
-        is_there &=
-            iccp_enlarge(memory, &map->corners.vertex, n_corners, 3 * room, sizeof(uint32_t));
-        is_there &= iccp_enlarge(memory, &map->corners.twin, n_corners, 3 * room, sizeof(uint32_t));
+        const size_t room = 3 * n_triangles;
+        is_there &= iccp_enlarge(memory, &map->corners.vertex, n_corners, room, sizeof(uint32_t));
+        is_there &= iccp_enlarge(memory, &map->corners.twin, n_corners, room, sizeof(uint32_t));
         if (is_there)
-            map->triangle_room = room;
+            map->triangle_room = n_triangles;
     }
     return is_there ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_plmap_expect_cuts(iccp_plmap *map, size_t n)
+{
+    return make_room(map, map->n_vertices + n, map->corners.n_triangles + 2 * n);
 }
 
 icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,
@@ -272,10 +275,13 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
             (twin == ICCP_NO_NEIGHBOUR || can_cut(map, twin, point, image));
     if (!*done)
         return ICC_OK;
-    const icc_status status = make_room(map, map->n_vertices + 1, map->corners.n_triangles + 2);
-    if (status != ICC_OK)
-        return status;
-    const size_t m = map->n_vertices;
+    /* Half as much again, so that n cuts that nobody expected cost O(n). */
+    const size_t m = map->n_vertices, n_triangles = map->corners.n_triangles;
+    if (m + 1 > map->vertex_room || n_triangles + 2 > map->triangle_room) {
+        const icc_status status = iccp_plmap_expect_cuts(map, m / 2 + 1);
+        if (status != ICC_OK)
+            return status;
+    }
     *done = place_on_edge(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
                           map->corners.vertex[before]);
     if (!*done)
@@ -287,14 +293,22 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
     return ICC_OK;
 }
 
+static bool faces_chord(const iccp_plmap *map, uint32_t corner)
+{
+    return map->corners.twin[corner] != ICCP_NO_NEIGHBOUR &&
+           map->fixed[map->corners.vertex[iccp_after(corner)]] &&
+           map->fixed[map->corners.vertex[iccp_before(corner)]] && !iccp_plmap_is_line(map, corner);
+}
+
 icc_status iccp_cut_chords(iccp_plmap *map)
 {
-    icc_status status = ICC_OK;
+    size_t n = 0;
+    for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c)
+        n += faces_chord(map, c) && c < map->corners.twin[c];
+    icc_status status = iccp_plmap_expect_cuts(map, n);
     for (uint32_t c = 0; status == ICC_OK && c < 3 * map->corners.n_triangles; ++c) {
         bool done;
-        if (map->corners.twin[c] != ICCP_NO_NEIGHBOUR &&
-            map->fixed[map->corners.vertex[iccp_after(c)]] &&
-            map->fixed[map->corners.vertex[iccp_before(c)]] && !iccp_plmap_is_line(map, c))
+        if (faces_chord(map, c))
             status = iccp_plmap_cut(map, c, &done);
     }
     return status;

@@ -206,6 +206,9 @@ bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);
 /* Whether that holds for all triangles. */
 bool iccp_plmap_is_positive(const iccp_plmap *map);
 
+/* Makes room for n cuts, so that none of them has to move the map. */
+icc_status iccp_plmap_expect_cuts(iccp_plmap *map, size_t n);
+
 /* Cuts the edge that a corner faces at its middle, before and after the map. *done is false if the
  * edge may not be cut, or if rounding would spoil a triangle that is positive now. Makes room as
  * needed. */

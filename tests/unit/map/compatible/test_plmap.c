@@ -72,6 +72,30 @@ START_TEST(cuts_change_the_mesh_and_not_the_map)
 }
 END_TEST
 
+/* A new map has exactly the room that it needs, and so have cuts that are expected. */
+START_TEST(expected_cuts_move_nothing)
+{
+    const shape s = shape_l();
+    iccp_plmap map = map_of(&s, 8, wave, 0.7);
+    const size_t n = map.n_vertices, n_triangles = map.corners.n_triangles, n_cuts = n / 3;
+    ck_assert_uint_eq(map.vertex_room, n);
+    ck_assert_uint_eq(map.triangle_room, n_triangles);
+    ck_assert_int_eq(iccp_plmap_expect_cuts(&map, n_cuts), ICC_OK);
+    ck_assert_uint_eq(map.vertex_room, n + n_cuts);
+    ck_assert_uint_eq(map.triangle_room, n_triangles + 2 * n_cuts);
+    const double *points = map.points, *images = map.images;
+    const uint32_t *vertex = map.corners.vertex, *twin = map.corners.twin;
+    for (uint32_t c = 0; map.n_vertices < n + n_cuts; c += 7) {
+        bool done;
+        ck_assert_int_eq(iccp_plmap_cut(&map, c % (uint32_t)(3 * n_triangles), &done), ICC_OK);
+    }
+    ck_assert(map.points == points && map.images == images);
+    ck_assert(map.corners.vertex == vertex && map.corners.twin == twin);
+    check_mesh(&map);
+    iccp_plmap_free(&map);
+}
+END_TEST
+
 /* The middle of two neighbouring doubles is one of them: no cut, and no change. */
 START_TEST(edges_that_rounding_would_spoil_stay)
 {
@@ -467,6 +491,7 @@ int main(void)
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 120);
     tcase_add_test(tests, cuts_change_the_mesh_and_not_the_map);
+    tcase_add_test(tests, expected_cuts_move_nothing);
     tcase_add_test(tests, edges_that_rounding_would_spoil_stay);
     tcase_add_test(tests, energies_of_simple_maps);
     tcase_add_test(tests, steps_go_down);
