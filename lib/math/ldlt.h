@@ -45,7 +45,8 @@ void iccp_ldlt_share(iccp_ldlt *factor, const iccp_ldlt *analysed, const iccp_me
  * of the widest supernode. */
 double iccp_ldlt_bytes(const iccp_ldlt *factor);
 
-/* Factorises a matrix with the analysed pattern. The first call allocates the memory. Returns
+/* Factorises a matrix with the analysed pattern. Reads only entries in the earlier of two rows, in
+ * order of elimination; the others may be left out. The first call allocates the memory. Returns
  * ICC_ERR_SOLVER if a pivot is not positive: the matrix is not positive definite to working
  * precision. The cost is proportional to the sum of the squared column counts of L. Every processor
  * gives the same bits. */

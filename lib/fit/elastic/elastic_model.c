@@ -44,14 +44,16 @@ static icc_status analyse(iccp_elastic_plan *plan, const iccp_elastic *s, const 
     icc_status status = iccp_assembly_create(&plan->assembly, &view, NULL, env);
     if (status != ICC_OK)
         return status;
-    iccp_reach_find(&s->reach, &plan->assembly, plan->place);
     const iccp_symmetric hessian = iccp_assembly_hessian(&plan->assembly);
     status = iccp_ldlt_analyse(&plan->factor, &hessian, 2, env);
     if (status != ICC_OK)
         return status;
     const size_t n_parts =
         iccp_has_threads(env) ? n_threads * (2 * s->n_points / (PART_ROWS * n_threads) + 1) : 1;
-    return iccp_assembly_divide(&plan->assembly, plan->factor.position, n_parts, env);
+    status = iccp_assembly_divide(&plan->assembly, plan->factor.position, n_parts, env);
+    if (status == ICC_OK)
+        iccp_reach_find(&s->reach, &plan->assembly, plan->place);
+    return status;
 }
 
 /* Lists the corners of triangles, links and pairs. */
@@ -209,8 +211,6 @@ static icc_status set_up(iccp_elastic *s, const iccp_elastic_input *input, const
         status = iccp_contact_measure(&s->shape, s->weight / (double)s->n_triangles, env);
     if (status == ICC_OK)
         status = iccp_elastic_plan_create(&s->plan, s, 0, NULL, env);
-    if (status == ICC_OK)
-        iccp_assembly_drop_sums(&s->plan.assembly);
     return status;
 }
 

@@ -78,7 +78,8 @@ static icc_status update_plan(iccp_elastic_state *s, const iccp_env *env)
     if (status != ICC_OK)
         return status;
     iccp_elastic_plan_free(&s->own, &env->memory);
-    return iccp_elastic_plan_create(&s->own, s->as, s->contact.n, s->contact.touch, env);
+    status = iccp_elastic_plan_create(&s->own, s->as, s->contact.n, s->contact.touch, env);
+    return status == ICC_OK ? iccp_assembly_make_room(&s->own.assembly) : status;
 }
 
 /* ---- the step ---- */

@@ -201,7 +201,7 @@ static void add_bending(iccp_elastic_state *s, uint32_t v)
     }
     for (size_t e = q->first[v]; e < q->first[v + 1]; ++e) {
         free_axes(s, q->column[e], other);
-        for (size_t k = 0; k < 2; ++k) {
+        for (size_t k = 0; k < 2 && s->own.place[e] != UINT32_MAX; ++k) {
             double *value = a->value + a->first[2 * (size_t)v + k] + 1 + 2 * s->own.place[e];
             for (size_t c = 0; c < 2; ++c)
                 value[c] += 2 * reach->factor * q->value[e] * dot(own[k], other[c]);

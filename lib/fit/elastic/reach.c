@@ -124,12 +124,14 @@ void iccp_reach_find(const iccp_reach *reach, const iccp_assembly *assembly, uin
 {
     const iccp_gram *q = &reach->gram;
     for (size_t i = 0; reach->factor > 0 && i < q->matrix.n; ++i) {
-        const uint32_t *column = assembly->column + assembly->first[2 * i] + 1;
+        const size_t first = assembly->first[2 * i] + 1;
+        const uint32_t *column = assembly->column + first;
+        const size_t n = (assembly->first[2 * i + 1] - first) / 2;
         for (size_t e = q->first[i]; e < q->first[i + 1]; ++e) {
             uint32_t k = 0;
-            while (column[2 * k] != 2 * q->column[e])
+            while (k < n && column[2 * k] != 2 * q->column[e])
                 ++k;
-            place[e] = k;
+            place[e] = k < n ? k : UINT32_MAX;
         }
     }
 }

@@ -29,7 +29,8 @@ void iccp_reach_gradient(const iccp_reach *reach, const double *images, size_t v
                          double *gradient);
 
 /* Finds the places of Q's entries off the diagonal: place[q] is the number of the entry's column
- * among the neighbours of its row. All points of the assembly are free. */
+ * among the neighbours that the row holds, or UINT32_MAX if it is not there. All points of the
+ * assembly are free. */
 void iccp_reach_find(const iccp_reach *reach, const iccp_assembly *assembly, uint32_t *place);
 
 #endif

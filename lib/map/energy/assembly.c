@@ -164,16 +164,6 @@ static icc_status find_pattern(iccp_assembly *s, const iccp_env *env)
     return status;
 }
 
-/* Allocates the sums. */
-static icc_status make_room(iccp_assembly *s)
-{
-    const size_t n = s->dim * s->n_free;
-    s->value = iccp_alloc(&s->memory, s->first[n], sizeof *s->value);
-    s->diagonal = iccp_alloc(&s->memory, n, sizeof *s->diagonal);
-    s->gradient = iccp_alloc(&s->memory, n, sizeof *s->gradient);
-    return s->value != NULL && s->diagonal != NULL && s->gradient != NULL ? ICC_OK : ICC_ERR_MEMORY;
-}
-
 icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_map *map,
                                 const uint8_t *movable, const iccp_env *env)
 {
@@ -188,20 +178,22 @@ icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_m
         status =
             s->neighbour != NULL && s->first != NULL ? find_pattern(s, &quiet) : ICC_ERR_MEMORY;
     }
-    if (status == ICC_OK)
-        status = make_room(s);
     if (status != ICC_OK)
         iccp_assembly_free(s);
     return status;
 }
 
-void iccp_assembly_drop_sums(iccp_assembly *assembly)
+icc_status iccp_assembly_make_room(iccp_assembly *assembly)
 {
     iccp_assembly *s = assembly;
-    iccp_free(&s->memory, s->value);
-    iccp_free(&s->memory, s->diagonal);
-    iccp_free(&s->memory, s->gradient);
-    s->value = s->diagonal = s->gradient = NULL;
+    const size_t n = s->dim * s->n_free;
+    if (s->value == NULL)
+        s->value = iccp_alloc(&s->memory, s->first[n], sizeof *s->value);
+    if (s->diagonal == NULL)
+        s->diagonal = iccp_alloc(&s->memory, n, sizeof *s->diagonal);
+    if (s->gradient == NULL)
+        s->gradient = iccp_alloc(&s->memory, n, sizeof *s->gradient);
+    return s->value != NULL && s->diagonal != NULL && s->gradient != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pattern,
@@ -212,7 +204,8 @@ icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pat
     s->memory = *memory;
     s->corners = map->corners;
     s->borrows = true;
-    const icc_status status = make_room(s);
+    s->value = s->diagonal = s->gradient = NULL;
+    const icc_status status = iccp_assembly_make_room(s);
     if (status != ICC_OK)
         iccp_assembly_free(s);
     return status;
@@ -223,7 +216,9 @@ void iccp_assembly_free(iccp_assembly *assembly)
     iccp_assembly *s = assembly;
     void *const pattern[] = {s->free_point, s->slot, s->simplex,       s->neighbour, s->first,
                              s->column,     s->part, s->first_element, s->element};
-    iccp_assembly_drop_sums(s);
+    iccp_free(&s->memory, s->value);
+    iccp_free(&s->memory, s->diagonal);
+    iccp_free(&s->memory, s->gradient);
     for (size_t k = 0; k < sizeof pattern / sizeof *pattern && !s->borrows; ++k)
         iccp_free(&s->memory, pattern[k]);
     *s = (iccp_assembly){.memory = s->memory};
@@ -236,7 +231,8 @@ typedef struct elimination {
     const uint32_t *position;
 } elimination;
 
-/* Leaves out pairs of corners whose entry the factorisation does not read. */
+/* Numbers an element's neighbours among those that are eliminated later, and leaves out the others.
+ * The rows still hold all neighbours. */
 static icc_status leave_out(void *argument, size_t begin, size_t end)
 {
     const elimination *el = argument;
@@ -245,11 +241,51 @@ static icc_status leave_out(void *argument, size_t begin, size_t end)
     uint32_t *neighbour = s->neighbour + dim * (dim + 1) * begin;
     for (size_t e = begin; e < end; ++e)
         for (size_t a = 0; a <= dim; ++a)
-            for (size_t b = 0; b <= dim; ++b)
-                if (a != b && *neighbour++ != NONE &&
-                    el->position[dim * slot_of(dim, s, e, a)] >
-                        el->position[dim * slot_of(dim, s, e, b)])
-                    neighbour[-1] = NONE;
+            for (size_t b = 0; b < dim; ++b, ++neighbour) {
+                if (*neighbour == NONE)
+                    continue;
+                const size_t row = dim * slot_of(dim, s, e, a);
+                const uint32_t *column = s->column + s->first[row] + dim - 1, own = *neighbour;
+                uint32_t n_later = 0;
+                for (uint32_t k = 0; k < own; ++k)
+                    n_later += el->position[column[dim * k]] > el->position[row];
+                *neighbour = el->position[column[dim * own]] > el->position[row] ? n_later : NONE;
+            }
+    return ICC_OK;
+}
+
+/* Takes the entries in earlier rows out of all rows. Every entry is stored twice, so half of those
+ * outside of the points' own blocks stay. */
+static icc_status shorten_rows(iccp_assembly *s, const uint32_t *position)
+{
+    const size_t dim = s->dim, n_rows = dim * s->n_free, n_own = (dim - 1) * n_rows;
+    const size_t n_entries = n_own + (s->first[n_rows] - n_own) / 2;
+    uint32_t *column = iccp_alloc(&s->memory, n_entries, sizeof *column);
+    double *value = s->value != NULL ? iccp_alloc(&s->memory, n_entries, sizeof *value) : NULL;
+    size_t n = 0, begin = 0;
+    if (column == NULL || (s->value != NULL && value == NULL)) {
+        iccp_free(&s->memory, column);
+        iccp_free(&s->memory, value);
+        return ICC_ERR_MEMORY;
+    }
+    for (size_t row = 0; row < n_rows; ++row) {
+        const size_t end = s->first[row + 1];
+        s->first[row] = n;
+        for (size_t q = begin; q < end; ++q) {
+            const uint32_t c = s->column[q];
+            if (q >= begin + dim - 1 && position[c] < position[row])
+                continue;
+            if (value != NULL)
+                value[n] = s->value[q];
+            column[n++] = c;
+        }
+        begin = end;
+    }
+    s->first[n_rows] = n;
+    iccp_free(&s->memory, s->column);
+    iccp_free(&s->memory, s->value);
+    s->column = column;
+    s->value = value;
     return ICC_OK;
 }
 
@@ -338,8 +374,10 @@ icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *positio
     iccp_assembly *s = assembly;
     const size_t n_rows = s->dim * s->n_free;
     const iccp_env quiet = iccp_quiet(env);
-    const icc_status status = iccp_for_chunks(&quiet, "improve", s->n_elements, GRAIN, leave_out,
-                                              &(elimination){s, position});
+    icc_status status = iccp_for_chunks(&quiet, "improve", s->n_elements, GRAIN, leave_out,
+                                        &(elimination){s, position});
+    if (status == ICC_OK)
+        status = shorten_rows(s, position);
     if (status != ICC_OK || n_parts <= 1)
         return status;
     s->n_parts = n_parts;

@@ -31,23 +31,23 @@ typedef struct iccp_assembly {
                               another assembly */
 } iccp_assembly;
 
-/* The free points are those with movable[v] != 0 that are not fixed. If `movable` is NULL, all
- * points that are not fixed are free. */
+/* Finds the pattern; there are no sums yet. The free points are those with movable[v] != 0 that are
+ * not fixed. If `movable` is NULL, all points that are not fixed are free. */
 icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_map *map,
                                 const uint8_t *movable, const iccp_env *env);
 void iccp_assembly_free(iccp_assembly *assembly);
 
-/* Frees the sums and keeps the pattern, which others can then share. */
-void iccp_assembly_drop_sums(iccp_assembly *assembly);
+/* Allocates the sums, unless they are there. On failure the assembly can only be freed. */
+icc_status iccp_assembly_make_room(iccp_assembly *assembly);
 
-/* Makes an assembly for another map of the same mesh with the same free points. It borrows
+/* Makes an assembly with sums for another map of the same mesh with the same free points. It borrows
  * `pattern`, which must live longer. The pattern is only read, so several assemblies may share
  * it. */
 icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pattern,
                                const iccp_simplicial_map *map, const iccp_memory *memory);
 
-/* Prepares for a factorisation that eliminates row i at position[i]. From now on, only the entry in
- * the earlier of two rows is summed; the other one stays 0. With `n_parts` > 1 the rows are divided
+/* Prepares for a factorisation that eliminates row i at position[i]. From now on, each row holds only
+ * its own block and its entries in later rows, which are all that the factorisation reads. With `n_parts` > 1 the rows are divided
  * into parts of about equal size, which can be summed at the same time. */
 icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts,
                                 const iccp_env *env);

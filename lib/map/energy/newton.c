@@ -40,25 +40,26 @@ static icc_status begin_side(void *argument, size_t k, const iccp_env *env, icc_
 }
 
 /* In the plane, finding the order of elimination takes one thread longer than the first Hessian. So
- * other threads compute that Hessian meanwhile, if its energy is known. */
+ * other threads compute that Hessian meanwhile, if its energy is known. Otherwise the sums get their
+ * room last, when the rows are short and what served the order is freed. */
 static icc_status begin(iccp_newton *s, const iccp_energy *first, bool has_order,
                         const iccp_env *env)
 {
     const size_t n = s->assembly.n_elements;
     s->is_ahead = first != NULL && !has_order && s->map.dim == 2 && n > ICCP_NEWTON_GRAIN &&
                   iccp_has_threads(env);
-    icc_status status = ICC_OK;
-    if (s->is_ahead) {
+    icc_status status = s->is_ahead ? iccp_assembly_make_room(&s->assembly) : ICC_OK;
+    if (status == ICC_OK && s->is_ahead) {
         s->ahead = *first;
         status = iccp_side_by_side(env, 2, begin_side, s, NULL);
-    } else {
+    } else if (status == ICC_OK) {
         status = iccp_for_chunks(&s->threads, "improve", n, ICCP_NEWTON_GRAIN, find_elements, s);
         if (status == ICC_OK && !has_order && s->map.dim == 2)
             status = iccp_newton_order(&s->assembly, &s->factor, env);
     }
-    return status == ICC_OK && !has_order && s->map.dim == 2
-               ? iccp_newton_divide(&s->assembly, &s->factor, env)
-               : status;
+    if (status == ICC_OK && !has_order && s->map.dim == 2)
+        status = iccp_newton_divide(&s->assembly, &s->factor, env);
+    return status == ICC_OK ? iccp_assembly_make_room(&s->assembly) : status;
 }
 
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,

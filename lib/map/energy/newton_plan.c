@@ -40,10 +40,8 @@ icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial
         memcpy(plan->corners, map->corners, n_corners * sizeof *plan->corners);
         status = iccp_assembly_create(&plan->assembly, map, NULL, &alone);
     }
-    if (status == ICC_OK) {
-        iccp_assembly_drop_sums(&plan->assembly);
+    if (status == ICC_OK)
         status = iccp_newton_order(&plan->assembly, &plan->factor, env);
-    }
     if (status == ICC_OK)
         status = iccp_newton_divide(&plan->assembly, &plan->factor, env);
     if (status != ICC_OK) {
