@@ -46,12 +46,15 @@ static double energy_of(const void *map, const iccp_env *env)
 }
 
 static icc_status descend(void *map, const iccp_descent *descent, bool moves_points,
-                          iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+                          iccp_newton *newton, iccp_work *work, iccp_improvement *improvement,
+                          const iccp_env *env)
 {
-    if (moves_points)
+    if (moves_points) {
+        iccp_newton_free(newton);
         return iccp_improve_points_and_images(map, descent, work, improvement, env);
+    }
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-    return iccp_improve_images(&simplicial, descent, work, improvement, env);
+    return iccp_improve_images(&simplicial, descent, newton, work, improvement, env);
 }
 
 typedef struct ranked {
@@ -130,6 +133,8 @@ static icc_status cut_worst(iccp_plmap *map, double most, bool all_or_nothing, s
     }
     if (all_or_nothing && reached < EXCESS_SHARE * excess)
         left = n;
+    if (status == ICC_OK)
+        status = iccp_plmap_expect_cuts(map, n - left);
     for (size_t k = n; status == ICC_OK && k-- > left;) {
         bool done;
         status = iccp_plmap_cut(map, longest_edge(map, r.list[k].triangle), &done);
@@ -183,12 +188,14 @@ static icc_status merge_and_descend(iccp_plmap *map, const iccp_schedule *schedu
                                     const iccp_env *env)
 {
     const iccp_descent descent = {0, schedule->iterations, schedule->tolerance, 0, false};
+    iccp_newton newton = {.assembly.memory = env->memory};
     size_t n_flips;
     icc_status status = iccp_coarsen_worthless(map, least_worth(map), n_gone, env);
     if (status == ICC_OK && *n_gone > 0)
         status = iccp_flip_edges(map, &n_flips, env);
     if (status == ICC_OK && *n_gone > 0)
-        status = descend(map, &descent, schedule->moves_points, work, improvement, env);
+        status = descend(map, &descent, schedule->moves_points, &newton, work, improvement, env);
+    iccp_newton_free(&newton);
     return status;
 }
 

@@ -2,9 +2,7 @@
  * step. */
 #include "map/energy/descent.h"
 
-#include "base/threads.h"
 #include "map/energy/movable.h"
-#include "map/energy/newton.h"
 
 #include <math.h>
 
@@ -23,7 +21,7 @@ static icc_status go_down(iccp_newton *newton, const iccp_simplicial_map *map,
     uint8_t *movable;
     icc_status status = iccp_movable_create(&movable, map, env);
     if (status == ICC_OK)
-        status = iccp_newton_create(newton, map, movable, &first, &part);
+        status = iccp_newton_prepare(newton, map, movable, &first, &part);
     iccp_free(&env->memory, movable);
     if (status != ICC_OK)
         return status;
@@ -57,24 +55,6 @@ static icc_status go_down(iccp_newton *newton, const iccp_simplicial_map *map,
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }
 
-typedef struct ending {
-    const iccp_simplicial_map *map;
-    iccp_newton newton;
-    double energy;
-} ending;
-
-/* Sums the energy (k = 0) while another thread frees the memory (k = 1), which takes as long. */
-static icc_status end(void *argument, size_t k, const iccp_env *env, icc_error *err)
-{
-    ending *e = argument;
-    (void)err;
-    if (k == 0)
-        e->energy = iccp_simplicial_energy_at_once(e->map, env);
-    else
-        iccp_newton_free(&e->newton);
-    return ICC_OK;
-}
-
 icc_status iccp_take_steps(const iccp_simplicial_map *map, const iccp_descent *descent,
                            iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
@@ -87,12 +67,10 @@ icc_status iccp_take_steps(const iccp_simplicial_map *map, const iccp_descent *d
 }
 
 icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
-                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+                               iccp_newton *newton, iccp_work *work, iccp_improvement *improvement,
+                               const iccp_env *env)
 {
-    ending e = {.map = map, .newton.assembly.memory = env->memory};
-    const iccp_env quiet = iccp_quiet(env);
-    const icc_status status = go_down(&e.newton, map, descent, work, improvement, env);
-    (void)iccp_side_by_side(&quiet, 2, end, &e, NULL);
-    improvement->energy = e.energy;
+    const icc_status status = go_down(newton, map, descent, work, improvement, env);
+    improvement->energy = iccp_simplicial_energy_at_once(map, env);
     return status;
 }

@@ -2,7 +2,7 @@
 #ifndef ICCP_DESCENT_H
 #define ICCP_DESCENT_H
 
-#include "map/energy/simplicial_map.h"
+#include "map/energy/newton.h"
 #include "map/energy/work.h"
 
 typedef struct iccp_improvement {
@@ -28,8 +28,11 @@ typedef struct iccp_descent {
 icc_status iccp_take_steps(const iccp_simplicial_map *map, const iccp_descent *descent,
                            iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
 
-/* Calls iccp_take_steps() and sets improvement->energy. `improvement` must not be NULL. */
+/* Does the same as iccp_take_steps() and sets improvement->energy. `improvement` must not be NULL.
+ * `newton` begins empty and keeps what these steps prepare, for more steps on the same mesh. The
+ * caller frees it before the mesh or its points change. */
 icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
-                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
+                               iccp_newton *newton, iccp_work *work, iccp_improvement *improvement,
+                               const iccp_env *env);
 
 #endif

@@ -102,6 +102,30 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
     return status;
 }
 
+static bool fits(const iccp_newton *s, const iccp_simplicial_map *map, const uint8_t *movable)
+{
+    if (s->element == NULL || s->map.corners != map->corners || s->map.points != map->points)
+        return false;
+    bool fits = s->map.n_points == map->n_points && s->map.n_simplices == map->n_simplices;
+    for (uint32_t v = 0; fits && v < map->n_points; ++v)
+        fits = (s->assembly.slot[v] != UINT32_MAX) ==
+               (!iccp_simplicial_is_fixed(map, v) && (movable == NULL || movable[v]));
+    return fits;
+}
+
+icc_status iccp_newton_prepare(iccp_newton *newton, const iccp_simplicial_map *map,
+                               const uint8_t *movable, const iccp_energy *first,
+                               const iccp_env *env)
+{
+    if (!fits(newton, map, movable)) {
+        iccp_newton_free(newton);
+        return iccp_newton_create(newton, map, movable, first, env);
+    }
+    newton->map = *map;
+    newton->is_ahead = false;
+    return ICC_OK;
+}
+
 void iccp_newton_free(iccp_newton *newton)
 {
     iccp_newton *s = newton;

@@ -78,6 +78,12 @@ bool iccp_newton_plan_fits(const iccp_newton_plan *plan, const iccp_simplicial_m
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
                               const uint8_t *movable, const iccp_energy *first,
                               const iccp_env *env);
+
+/* Calls iccp_newton_create(), unless `newton` was made for this mesh and these movable points. An
+ * empty one was freed or has nothing but assembly.memory. */
+icc_status iccp_newton_prepare(iccp_newton *newton, const iccp_simplicial_map *map,
+                               const uint8_t *movable, const iccp_energy *first,
+                               const iccp_env *env);
 void iccp_newton_free(iccp_newton *newton);
 
 double iccp_newton_energy(const iccp_newton *newton, iccp_energy energy, double epsilon);

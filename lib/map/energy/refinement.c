@@ -39,8 +39,8 @@ static bool has_converged(double energy, double least_gain, double gain, double 
 
 /* Refines the mesh and takes steps, again and again, as long as that pays. */
 static icc_status refine_often(const iccp_profile *profile, void *map,
-                               const iccp_schedule *schedule, double slow, iccp_work *work,
-                               iccp_improvement *improvement, const iccp_env *env)
+                               const iccp_schedule *schedule, double slow, iccp_newton *newton,
+                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     const size_t most = schedule->iterations < MOST_STEPS ? schedule->iterations : MOST_STEPS;
     const iccp_descent descent = {0, most, schedule->tolerance, slow, schedule->is_relaxed};
@@ -52,10 +52,12 @@ static icc_status refine_often(const iccp_profile *profile, void *map,
         const double before = improvement->energy;
         const iccp_env part = iccp_round(env, improvement->n_levels, TYPICAL_LEVELS);
         size_t n_changes;
+        iccp_newton_free(newton);
         status = profile->refine(map, &n_changes, env);
         if (status != ICC_OK || n_changes == 0)
             break;
-        status = profile->descend(map, &descent, schedule->moves_points, work, improvement, &part);
+        status = profile->descend(map, &descent, schedule->moves_points, newton, work, improvement,
+                                  &part);
         ++improvement->n_levels;
         const double gain = (before - improvement->energy) / before;
         n_in_vain = gain < profile->least_gain ? n_in_vain + 1 : 0;
@@ -77,6 +79,7 @@ icc_status iccp_improve_by(const iccp_profile *profile, void *map, const iccp_sc
     iccp_descent first = {profile->majorised, schedule->iterations, schedule->tolerance, slow,
                           false};
     iccp_env part[3];
+    iccp_newton newton = {.assembly.memory = env->memory};
     iccp_split(part, 3, (const double[]){2, 2, 1}, env);
     *improvement = (iccp_improvement){0};
     if (schedule->levels == 0)
@@ -85,10 +88,12 @@ icc_status iccp_improve_by(const iccp_profile *profile, void *map, const iccp_sc
     if (schedule->is_relaxed && schedule->levels > 0)
         improvement->energy = profile->energy(map, env);
     else
-        status = profile->descend(map, &first, schedule->moves_points, work, improvement, &part[0]);
+        status = profile->descend(map, &first, schedule->moves_points, &newton, work, improvement,
+                                  &part[0]);
     if (status == ICC_OK && schedule->levels > 0)
-        status = refine_often(profile, map, schedule, slow, work, improvement, &part[1]);
+        status = refine_often(profile, map, schedule, slow, &newton, work, improvement, &part[1]);
     if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)
-        status = profile->descend(map, &last, false, work, improvement, &part[2]);
+        status = profile->descend(map, &last, false, &newton, work, improvement, &part[2]);
+    iccp_newton_free(&newton);
     return status;
 }

@@ -15,8 +15,10 @@ typedef struct iccp_profile {
     double least_gain;                /* a refinement that gains less than this share was in vain */
     size_t (*count)(const void *map); /* returns the number of simplices */
     double (*energy)(const void *map, const iccp_env *env);
+    /* See iccp_improve_images(). */
     icc_status (*descend)(void *map, const iccp_descent *descent, bool moves_points,
-                          iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
+                          iccp_newton *newton, iccp_work *work, iccp_improvement *improvement,
+                          const iccp_env *env);
     /* Changes the mesh in n_changes places where the map has most of its energy. The energy does
      * not rise. */
     icc_status (*refine)(void *map, size_t *n_changes, const iccp_env *env);

@@ -30,12 +30,13 @@ static double energy_of(const void *map, const iccp_env *env)
 }
 
 static icc_status descend(void *map, const iccp_descent *descent, bool moves_points,
-                          iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+                          iccp_newton *newton, iccp_work *work, iccp_improvement *improvement,
+                          const iccp_env *env)
 {
     const improved *m = map;
     const iccp_simplicial_map simplicial = iccp_solid_simplicial(m->map);
     (void)moves_points;
-    return iccp_improve_images(&simplicial, descent, work, improvement, env);
+    return iccp_improve_images(&simplicial, descent, newton, work, improvement, env);
 }
 
 icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map)

@@ -299,6 +299,39 @@ START_TEST(steps_go_down)
 }
 END_TEST
 
+/* Steps that use what earlier ones prepared have the same bits as steps that prepare it again. */
+START_TEST(prepared_steps_are_the_same)
+{
+    random_source r = {10};
+    const iccp_env env = default_env();
+    for (int32_t dim = 2; dim <= 3; ++dim) {
+        cube c = cube_of(dim, 5, 0, false, &r);
+        double *images = malloc(c.size);
+        ck_assert(images != NULL);
+        for (size_t i = c.mesh->dim * c.mesh->n_boundary; i < c.size / sizeof *c.images; ++i)
+            c.images[i] += random_between(&r, -0.02, 0.02);
+        memcpy(images, c.images, c.size);
+        const iccp_simplicial_map map = iccp_simplicial_map_of(c.mesh, c.images);
+        const iccp_simplicial_map other = iccp_simplicial_map_of(c.mesh, images);
+        iccp_newton newton = {.assembly.memory = env.memory};
+        iccp_work work = iccp_work_unlimited();
+        iccp_improvement improvement = {0};
+        for (size_t majorised = 3; majorised-- > 0;) {
+            const iccp_descent descent = {majorised, 2, 0, 0, false};
+            const double *element = newton.element;
+            ck_assert_int_eq(
+                iccp_improve_images(&map, &descent, &newton, &work, &improvement, &env), ICC_OK);
+            ck_assert(element == NULL || newton.element == element);
+            ck_assert_int_eq(iccp_take_steps(&other, &descent, &work, NULL, &env), ICC_OK);
+            ck_assert_mem_eq(c.images, images, c.size);
+        }
+        iccp_newton_free(&newton);
+        free(images);
+        free_cube(&c);
+    }
+}
+END_TEST
+
 /* A cube as it was with its inner vertices shaken: the fairest map with this boundary is the
  * identity, and every step towards it keeps all simplices positive. */
 START_TEST(shaken_maps_become_fair)
@@ -315,8 +348,10 @@ START_TEST(shaken_maps_become_fair)
             const double before = iccp_simplicial_energy(&map);
             const iccp_descent descent = {3, steps, 1e-13, 0, false};
             iccp_work work = iccp_work_unlimited();
-            ck_assert_int_eq(iccp_improve_images(&map, &descent, &work, &improvement, &env),
-                             ICC_OK);
+            iccp_newton newton = {.assembly.memory = env.memory};
+            ck_assert_int_eq(
+                iccp_improve_images(&map, &descent, &newton, &work, &improvement, &env), ICC_OK);
+            iccp_newton_free(&newton);
             const double after = iccp_simplicial_energy(&map);
             ck_assert_uint_le(improvement.n_iterations, steps);
             ck_assert_uint_eq(count_inverted(&c), 0);
@@ -344,6 +379,7 @@ int main(void)
     tcase_add_test(tests, points_without_an_image);
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, steps_go_down);
+    tcase_add_test(tests, prepared_steps_are_the_same);
     tcase_add_test(tests, shaken_maps_become_fair);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
