@@ -1,9 +1,12 @@
-/* Vector kernels for samples of one byte and three or four channels. The file that includes this
- * one names the processor (TARGET).
+/* Vector kernels for samples of one byte and three or four channels.
  *
- * Two neighbouring pixels of a row, 8 bytes, form one vector. So both columns are blended between
- * the rows at once, and then with each other, in integers below 2^32. If opacities differ, the sums
- * have up to 48 bits. Doubles hold them exactly, so the results have the same bits as integers. */
+ * PIXELS pixels of the target are sampled side by side: a vector has four channels of each. The
+ * four source pixels of a sample are blended in integers below 2^32, first the rows, in both
+ * columns, and then the columns. If opacities differ, the sums have up to 48 bits. Doubles hold
+ * them exactly, so the results have the same bits as integers.
+ *
+ * The file that includes this one names the processor (TARGET) and PIXELS. It also defines the
+ * functions that are declared under "vectors". */
 #ifndef ICCP_SAMPLER_LANES_H
 #define ICCP_SAMPLER_LANES_H
 
@@ -11,128 +14,67 @@
 
 #include "base/compiler.h"
 
-#include <immintrin.h>
 #include <string.h>
 
 /* Vectors are passed by pointer, because passing them by value depends on the processor. */
+typedef uint32_t lanes __attribute__((vector_size(16 * PIXELS)));
+typedef uint16_t shorts __attribute__((vector_size(16 * PIXELS)));
+typedef uint64_t positions __attribute__((vector_size(16 * PIXELS))); /* u and v of each pixel */
+typedef uint64_t position __attribute__((vector_size(16)));
+typedef float floats __attribute__((vector_size(16 * PIXELS)));
 typedef uint32_t channels4 __attribute__((vector_size(16)));
-typedef uint32_t channels8 __attribute__((vector_size(32))); /* of two pixels */
-typedef double reals __attribute__((vector_size(32)));
-typedef float floats __attribute__((vector_size(16)));
+typedef uint32_t channels8 __attribute__((vector_size(32))); /* of two pixels of the source */
+typedef double reals __attribute__((vector_size(32)));       /* of one pixel */
 
-enum { BITS = ICCP_NARROW_BITS, OPACITY = 3 };
+enum { BITS = ICCP_NARROW_BITS };
+
+/* The four source pixels around a place: in each row a left one and a right one of four bytes. */
+typedef struct sample {
+    uint64_t above, below;
+} sample;
 
 /* ---- vectors ---- */
 
-#if WIDE
+/* Sets pixel k to first + k * step. */
+TARGET static ICCP_INLINE void line_up(const position *first, const position *step, positions *x);
 
-TARGET static ICCP_INLINE void widen(uint64_t pair, channels8 *x)
-{
-    *x = (channels8)_mm256_cvtepu8_epi32(_mm_cvtsi64_si128((int64_t)pair));
-}
+/* Copy a channel of each pixel to all channels; spread_third() also to the upper halves. */
+TARGET static ICCP_INLINE void spread_first(lanes *x);
+TARGET static ICCP_INLINE void spread_third(lanes *x);
+TARGET static ICCP_INLINE void spread_last(lanes *x);
+TARGET static ICCP_INLINE void spread_last8(channels8 *x);
+TARGET static ICCP_INLINE void spread_last_real(reals *x);
 
-/* Copies the opacity of each pixel to all of its channels. */
-TARGET static ICCP_INLINE void spread_opacity(const channels8 *x, channels8 *opacity)
-{
-    *opacity = (channels8)_mm256_shuffle_epi32((__m256i)*x, 0xff);
-}
+/* Blends the rows of each sample. A weight is that of the row above, plus 2^16 times that of the
+ * row below. */
+TARGET static ICCP_INLINE void blend_rows(const sample s[PIXELS], const lanes *weights, lanes *left,
+                                          lanes *right);
+/* Puts the opacities of y in the place of those of x. */
+TARGET static ICCP_INLINE void replace_opacity(lanes *x, const lanes *y);
+TARGET static ICCP_INLINE void widen(uint64_t pair, channels8 *x);
+TARGET static ICCP_INLINE void halves(const channels8 *x, channels4 *left, channels4 *right);
+/* Puts numbers below 0 to 0, and those above 255 to 255. */
+TARGET static ICCP_INLINE void limit(floats *x);
 
-TARGET static ICCP_INLINE void halves(const channels8 *x, channels4 *left, channels4 *right)
-{
-    *left = (channels4)_mm256_castsi256_si128((__m256i)*x);
-    *right = (channels4)_mm256_extracti128_si256((__m256i)*x, 1);
-}
+/* Multiplies unsigned integers by a weight for each pixel. The result is rounded only once. */
+TARGET static ICCP_INLINE void scale(const lanes *x, const double weights[PIXELS], floats *y);
 
-/* Converts signed integers. */
-TARGET static ICCP_INLINE void to_reals(const channels4 *x, reals *y)
-{
-    *y = _mm256_cvtepi32_pd((__m128i)*x);
-}
+/* Convert signed integers. */
+TARGET static ICCP_INLINE void lanes_to_reals(const lanes *x, reals y[PIXELS]);
+TARGET static ICCP_INLINE void to_reals(const channels4 *x, reals *y);
 
-TARGET static ICCP_INLINE void to_floats(const reals *x, floats *y)
-{
-    *y = _mm256_cvtpd_ps(*x);
-}
+/* Convert to the nearest floats, or to integers without the fraction. */
+TARGET static ICCP_INLINE void to_floats(const reals x[PIXELS], floats *y);
+TARGET static ICCP_INLINE void reals_to_lanes(const reals x[PIXELS], lanes *y);
+TARGET static ICCP_INLINE void floats_to_lanes(const floats *x, lanes *y);
 
-TARGET static ICCP_INLINE void to_integers(const reals *x, channels4 *y)
-{
-    *y = (channels4)_mm256_cvttpd_epi32(*x);
-}
-
-TARGET static ICCP_INLINE void spread_last(const reals *x, reals *last)
-{
-    *last = _mm256_permute4x64_pd(*x, 0xff);
-}
-
-#else
-
-TARGET static ICCP_INLINE void join(channels4 left, channels4 right, channels8 *x)
-{
-    memcpy(x, &left, 16);
-    memcpy((char *)x + 16, &right, 16);
-}
-
-TARGET static ICCP_INLINE void halves(const channels8 *x, channels4 *left, channels4 *right)
-{
-    memcpy(left, x, 16);
-    memcpy(right, (const char *)x + 16, 16);
-}
-
-TARGET static ICCP_INLINE void widen(uint64_t pair, channels8 *x)
-{
-    join((channels4)_mm_cvtepu8_epi32(_mm_cvtsi64_si128((int64_t)pair)),
-         (channels4)_mm_cvtepu8_epi32(_mm_cvtsi64_si128((int64_t)(pair >> 32))), x);
-}
-
-TARGET static ICCP_INLINE void spread_opacity(const channels8 *x, channels8 *opacity)
-{
-    channels4 left, right;
-    halves(x, &left, &right);
-    join((channels4)_mm_shuffle_epi32((__m128i)left, 0xff),
-         (channels4)_mm_shuffle_epi32((__m128i)right, 0xff), opacity);
-}
-
-TARGET static ICCP_INLINE void join_reals(__m128d low, __m128d high, reals *x)
-{
-    memcpy(x, &low, 16);
-    memcpy((char *)x + 16, &high, 16);
-}
-
-TARGET static ICCP_INLINE void half_reals(const reals *x, __m128d *low, __m128d *high)
-{
-    memcpy(low, x, 16);
-    memcpy(high, (const char *)x + 16, 16);
-}
-
-TARGET static ICCP_INLINE void to_reals(const channels4 *x, reals *y)
-{
-    join_reals(_mm_cvtepi32_pd((__m128i)*x), _mm_cvtepi32_pd(_mm_shuffle_epi32((__m128i)*x, 0xee)),
-               y);
-}
-
-TARGET static ICCP_INLINE void to_floats(const reals *x, floats *y)
-{
-    __m128d low, high;
-    half_reals(x, &low, &high);
-    *y = _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high));
-}
-
-TARGET static ICCP_INLINE void to_integers(const reals *x, channels4 *y)
-{
-    __m128d low, high;
-    half_reals(x, &low, &high);
-    *y = (channels4)_mm_unpacklo_epi64(_mm_cvttpd_epi32(low), _mm_cvttpd_epi32(high));
-}
-
-TARGET static ICCP_INLINE void spread_last(const reals *x, reals *last)
-{
-    __m128d low, high;
-    half_reals(x, &low, &high);
-    high = _mm_unpackhi_pd(high, high);
-    join_reals(high, high, last);
-}
-
-#endif
+/* Stores the highest bytes of all channels of n pixels. */
+TARGET static ICCP_INLINE void put(const lanes *x, size_t n, int channels, uint8_t *to);
+/* Adds the numbers of pixel k to the sums. */
+TARGET static ICCP_INLINE void add_sums(const floats *x, size_t k, float sums[4]);
+/* Read the sums and the weights of n pixels. */
+TARGET static ICCP_INLINE void take_sums(const iccp_gathered *pixels, size_t n, floats *sums);
+TARGET static ICCP_INLINE void take_weights(const iccp_gathered *pixels, size_t n, floats *weights);
 
 /* ---- samples ---- */
 
@@ -142,15 +84,14 @@ typedef struct format {
     bool alpha, opaque; /* opaque: all opacities are 255 */
 } format;
 
-/* A place on a walk. `right` and `down` are the fraction of the position times 2^32, of which the
- * upper BITS bits count. */
-typedef struct place {
+/* The places of PIXELS neighbouring samples on a walk, in units of 2^-32 pixels. */
+typedef struct places {
     const uint8_t *pixels;
     size_t stride;
-    int64_t u, v, du, dv;
-    channels4 right, du4;
-    channels8 down, dv8;
-} place;
+    int64_t u, v, du, dv; /* of the first sample, and to the next one */
+    positions all;        /* only the fractions count */
+    positions advance;
+} places;
 
 /* Returns false if the walk reaches the last column or row. A position there belongs to the cell
  * before it, which only the portable kernels handle. */
@@ -162,7 +103,11 @@ static ICCP_INLINE bool is_plain(const icc_picture *p, const iccp_walk *w)
     return w->u < columns && w->u + n * w->du < columns && w->v < rows && w->v + n * w->dv < rows;
 }
 
-TARGET static ICCP_INLINE void begin(place *x, const icc_picture *p, const iccp_walk *w)
+/* The rows of the target follow each other, so the source's pixels for the next rows are
+ * prefetched. This suits maps that turn the picture by less than 90 degrees. */
+enum { AHEAD = 6 };
+
+TARGET static ICCP_INLINE void begin(places *x, const icc_picture *p, const iccp_walk *w)
 {
     const int64_t half = (int64_t)1 << (31 - BITS);
     x->pixels = p->pixels;
@@ -171,18 +116,17 @@ TARGET static ICCP_INLINE void begin(place *x, const icc_picture *p, const iccp_
     x->v = w->v + half;
     x->du = w->du;
     x->dv = w->dv;
-    x->right = (channels4){0} + (uint32_t)x->u;
-    x->down = (channels8){0} + (uint32_t)x->v;
-    x->du4 = (channels4){0} + (uint32_t)x->du;
-    x->dv8 = (channels8){0} + (uint32_t)x->dv;
+    const position first = {(uint64_t)x->u, (uint64_t)x->v}, none = {0};
+    const position step = {(uint64_t)x->du, (uint64_t)x->dv}, all_steps = PIXELS * step;
+    line_up(&first, &step, &x->all);
+    line_up(&all_steps, &none, &x->advance);
 }
 
-TARGET static ICCP_INLINE void advance(place *x)
+TARGET static ICCP_INLINE void advance(places *x)
 {
-    x->u += x->du;
-    x->v += x->dv;
-    x->right += x->du4;
-    x->down += x->dv8;
+    x->u += PIXELS * x->du;
+    x->v += PIXELS * x->dv;
+    x->all += x->advance;
 }
 
 /* Loads two pixels of a row. With three channels, the fourth byte has no meaning. */
@@ -199,38 +143,50 @@ static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
     return first | (uint64_t)(second >> 8) << 32;
 }
 
-/* The four pixels around a place, each with four bytes. */
-typedef struct sample {
-    uint64_t above, below;
-} sample;
-
-/* The rows of the target follow each other, so the source's pixels for the next rows are
- * prefetched. This suits maps that turn the picture by less than 90 degrees. */
-enum { AHEAD = 6 };
-
-static ICCP_INLINE sample load(const place *x, format f)
+static ICCP_INLINE const uint8_t *pixel_at(const places *x, int64_t k, format f)
 {
-    const size_t column = (size_t)(x->u >> 32), row = (size_t)(x->v >> 32);
-    const uint8_t *first = x->pixels + row * x->stride + column * (size_t)f.channels;
-    ICCP_PREFETCH((const void *)((uintptr_t)first + AHEAD * x->stride));
-    return (sample){load_pair(first, f), load_pair(first + x->stride, f)};
+    const size_t column = (size_t)((x->u + k * x->du) >> 32);
+    const size_t row = (size_t)((x->v + k * x->dv) >> 32);
+    return x->pixels + row * x->stride + column * (size_t)f.channels;
 }
 
-static ICCP_INLINE bool same_opacity(const sample *s)
+/* Loads n samples, and the first one in place of the others. */
+static ICCP_INLINE void load(const places *x, size_t n, format f, sample s[PIXELS])
 {
-    const uint64_t swapped = s->above << 32 | s->above >> 32;
-    return (((s->above ^ s->below) | (s->above ^ swapped)) & UINT64_C(0xff000000ff000000)) == 0;
+    ICCP_PREFETCH((const void *)((uintptr_t)pixel_at(x, 0, f) + AHEAD * x->stride));
+    for (size_t k = 0; k < PIXELS; ++k) {
+        const uint8_t *above = pixel_at(x, k < n ? (int64_t)k : 0, f);
+        s[k] = (sample){load_pair(above, f), load_pair(above + x->stride, f)};
+    }
 }
 
-TARGET static ICCP_INLINE void plain_sums(const place *x, const sample *s, channels4 *sums)
+/* Returns true if the four source pixels of each sample have the same opacity. */
+static ICCP_INLINE bool same_opacity(const sample s[PIXELS])
 {
-    channels8 above, below;
-    channels4 left, right;
-    widen(s->above, &above);
-    widen(s->below, &below);
-    const channels8 columns = (above << BITS) + (x->down >> (32 - BITS)) * (below - above);
-    halves(&columns, &left, &right);
-    *sums = (left << BITS) + (x->right >> (32 - BITS)) * (right - left);
+    uint64_t differ = 0;
+    for (int k = 0; k < PIXELS; ++k)
+        differ |= (s[k].above ^ s[k].below) | (s[k].above ^ (s[k].above << 32 | s[k].above >> 32));
+    return (differ & UINT64_C(0xff000000ff000000)) == 0;
+}
+
+/* Finds the shares of the right column and of the row below, times 2^BITS, in all channels. The
+ * upper halves of the latter have the share, too. */
+TARGET static ICCP_INLINE void find_shares(const places *x, lanes *right, lanes *below)
+{
+    *right = *below = (lanes)x->all >> (32 - BITS);
+    spread_first(right);
+    spread_third(below);
+}
+
+TARGET static ICCP_INLINE void plain_sums(const places *x, const sample s[PIXELS], lanes *sums)
+{
+    lanes share_right, share_below, left, right;
+    find_shares(x, &share_right, &share_below);
+    /* the row above: 2^BITS - share; the row below: the share */
+    const lanes signs = (lanes){0} + 0x1ffff, whole = (lanes){0} + (1 << BITS);
+    const lanes weights = (lanes)((shorts)share_below * (shorts)signs + (shorts)whole);
+    blend_rows(s, &weights, &left, &right);
+    *sums = (left << BITS) + share_right * (right - left);
 }
 
 /* Multiplies the channels of two pixels by their weights, and puts the weights last. */
@@ -240,170 +196,184 @@ TARGET static ICCP_INLINE void weigh(uint64_t pair, reals *left, reals *right)
     channels8 x, opacity;
     channels4 a, b;
     widen(pair, &x);
-    spread_opacity(&x, &opacity);
+    opacity = x;
+    spread_last8(&opacity);
     x = ((x & colours) | one) * ((opacity << ICCP_NARROW_FLOOR) + 1);
     halves(&x, &a, &b);
     to_reals(&a, left);
     to_reals(&b, right);
 }
 
-TARGET static ICCP_INLINE void weighted_sums(const place *x, const sample *s, reals *sums)
+TARGET static ICCP_INLINE void weighted_sums(const places *x, const sample s[PIXELS],
+                                             reals sums[PIXELS])
 {
-    const channels4 share_right = x->right >> (32 - BITS);
-    const channels8 share_down = x->down >> (32 - BITS);
-    channels4 share, same;
-    reals a, b, c, d, right, down;
-    weigh(s->above, &a, &b);
-    weigh(s->below, &c, &d);
-    halves(&share_down, &share, &same);
-    to_reals(&share, &down);
-    to_reals(&share_right, &right);
-    const reals left_of = (1 << BITS) - right, above = (1 << BITS) - down;
-    *sums = left_of * (above * a + down * c) + right * (above * b + down * d);
+    lanes share_right, share_below;
+    reals right[PIXELS], below[PIXELS], a, b, c, d;
+    find_shares(x, &share_right, &share_below);
+    lanes_to_reals(&share_right, right);
+    share_below &= (1 << BITS) - 1;
+    lanes_to_reals(&share_below, below);
+    for (int k = 0; k < PIXELS; ++k) {
+        const reals left = (1 << BITS) - right[k], above = (1 << BITS) - below[k];
+        weigh(s[k].above, &a, &b);
+        weigh(s[k].below, &c, &d);
+        sums[k] = left * (above * a + below[k] * c) + right[k] * (above * b + below[k] * d);
+    }
 }
 
-/* Converts unsigned integers exactly. */
-TARGET static ICCP_INLINE void unsigned_to_reals(const channels4 *x, reals *y)
+/* Finds the sums that are gathered. With equal opacities, the weighted sums are the plain sums
+ * times the weight. */
+TARGET static ICCP_INLINE void find_sums(const places *x, const sample s[PIXELS], format f,
+                                         floats *sums)
 {
-    const channels4 moved = *x ^ 1U << 31;
-    to_reals(&moved, y);
-    *y += 0x1p31;
-}
-
-/* With equal opacities, the weighted sums are the plain sums times the weight. */
-TARGET static ICCP_INLINE void find_sums(const place *x, const sample *s, format f, reals *sums)
-{
-    const channels4 colours = {~0U, ~0U, ~0U, 0}, whole = {0, 0, 0, 1U << 24};
-    channels4 plain;
+    const lanes whole = (lanes){0} + (1U << (2 * BITS));
+    lanes plain;
+    reals weighted[PIXELS];
+    double weights[PIXELS];
     if (f.alpha && !f.opaque && !same_opacity(s)) {
-        weighted_sums(x, s, sums);
+        weighted_sums(x, s, weighted);
+        to_floats(weighted, sums);
         return;
     }
     plain_sums(x, s, &plain);
     if (f.alpha)
-        plain = (plain & colours) | whole;
-    unsigned_to_reals(&plain, sums);
-    if (f.opaque)
-        *sums *= (255 << ICCP_NARROW_FLOOR) + 1.0;
-    else if (f.alpha) {
-        const channels4 weight =
-            (channels4){0} + ((uint32_t)(s->above >> 56) << ICCP_NARROW_FLOOR | 1);
-        reals w;
-        to_reals(&weight, &w);
-        *sums *= w;
+        replace_opacity(&plain, &whole);
+    for (int k = 0; k < PIXELS; ++k) {
+        const uint32_t opacity = f.opaque ? 255 : (uint32_t)(s[k].above >> 56);
+        weights[k] = f.alpha ? (int32_t)(opacity << ICCP_NARROW_FLOOR | 1) : 1;
     }
+    scale(&plain, weights, sums);
 }
 
 /* ---- kernels ---- */
 
-/* Stores the lowest bytes. */
-TARGET static ICCP_INLINE void put(const channels4 *x, format f, uint8_t *to)
-{
-    const __m128i order =
-        _mm_setr_epi8(0, 4, 8, 12, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1);
-    const int32_t bytes = _mm_cvtsi128_si32(_mm_shuffle_epi8((__m128i)*x, order));
-    memcpy(to, &bytes, (size_t)f.channels);
-}
-
 /* Rounds quotients correctly. Weights have 41 bits and means 8, so a quotient that is not an
  * integer is farther from every integer than its rounding error. */
-TARGET static ICCP_INLINE void put_weighted(const reals *sums, format f, uint8_t *to)
+TARGET static ICCP_INLINE void put_weighted(const reals sums[PIXELS], size_t n, format f,
+                                            uint8_t *to)
 {
     typedef int64_t mask __attribute__((vector_size(32)));
     const mask colours = {-1, -1, -1, 0};
-    reals weight, x;
-    channels4 bytes;
-    spread_last(sums, &weight);
-    const reals mean = (*sums + 0.5 * weight) / weight, opacity = (*sums - 0x1p24) * 0x1p-32 + 0.5;
-    x = (reals)(((mask)mean & colours) | ((mask)opacity & ~colours));
-    to_integers(&x, &bytes);
-    put(&bytes, f, to);
+    reals x[PIXELS];
+    lanes bytes;
+    for (int k = 0; k < PIXELS; ++k) {
+        reals weight = sums[k];
+        spread_last_real(&weight);
+        const reals mean = (sums[k] + 0.5 * weight) / weight;
+        const reals opacity = (sums[k] - 0x1p24) * 0x1p-32 + 0.5;
+        x[k] = (reals)(((mask)mean & colours) | ((mask)opacity & ~colours));
+    }
+    reals_to_lanes(x, &bytes);
+    bytes <<= 24;
+    put(&bytes, n, f.channels, to);
 }
 
-TARGET static ICCP_INLINE void paint_one(const place *x, const sample *s, format f, uint8_t *to)
+TARGET static ICCP_INLINE void paint_places(const places *x, size_t n, format f, uint8_t *to)
 {
+    sample s[PIXELS];
+    load(x, n, f, s);
     if (f.alpha && !f.opaque && !same_opacity(s)) {
-        reals sums;
-        weighted_sums(x, s, &sums);
-        put_weighted(&sums, f, to);
+        reals sums[PIXELS];
+        weighted_sums(x, s, sums);
+        put_weighted(sums, n, f, to);
     } else {
-        channels4 sums;
+        lanes sums;
         plain_sums(x, s, &sums);
-        sums = (sums + (1U << (2 * BITS - 1))) >> (2 * BITS);
-        put(&sums, f, to);
+        sums += 1U << (2 * BITS - 1); /* of the 32 bits, the highest 8 are the result */
+        put(&sums, n, f.channels, to);
     }
 }
 
 TARGET static ICCP_INLINE void paint(const icc_picture *source, format f, const iccp_walk *w,
                                      uint8_t *to)
 {
-    place x;
+    places x;
+    size_t n = w->n;
     if (!is_plain(source, w)) {
         iccp_sampler_portable(source)->paint(source, w, to);
         return;
     }
     begin(&x, source, w);
-    for (size_t n = w->n; n > 0; --n, to += f.channels) {
-        const sample s = load(&x, f);
-        paint_one(&x, &s, f, to);
+    for (; n >= PIXELS; n -= PIXELS, to += PIXELS * f.channels) {
+        paint_places(&x, PIXELS, f, to);
         advance(&x);
     }
+    if (n > 0)
+        paint_places(&x, n, f, to);
 }
 
-TARGET static ICCP_INLINE void add(iccp_gathered *to, const reals *exact, float weight)
+/* Adds n samples to their pixels. */
+TARGET static ICCP_INLINE void add(const places *x, size_t n, format f, float weight, size_t *phase,
+                                   size_t per_pixel, iccp_gathered **pixel)
 {
-    floats sums, more;
-    memcpy(&sums, to->sums, sizeof sums);
-    to_floats(exact, &more);
-    sums += weight * more;
-    memcpy(to->sums, &sums, sizeof sums);
-    to->weight += weight;
+    sample s[PIXELS];
+    floats more;
+    load(x, n, f, s);
+    find_sums(x, s, f, &more);
+    more *= weight;
+    for (size_t k = 0; k < n; ++k) {
+        add_sums(&more, k, (*pixel)->sums);
+        (*pixel)->weight += weight;
+        const bool last = ++*phase == per_pixel;
+        *pixel += last;
+        *phase = last ? 0 : *phase;
+    }
 }
 
 TARGET static ICCP_INLINE void gather(const icc_picture *source, format f, const iccp_walk *w,
                                       float weight, size_t phase, size_t per_pixel,
                                       iccp_gathered *pixels)
 {
-    place x;
+    places x;
+    size_t n = w->n;
     if (!is_plain(source, w)) {
         iccp_sampler_portable(source)->gather(source, w, weight, phase, per_pixel, pixels);
         return;
     }
     begin(&x, source, w);
-    for (size_t n = w->n; n > 0; --n) {
-        reals sums;
-        const sample s = load(&x, f);
-        find_sums(&x, &s, f, &sums);
-        add(pixels, &sums, weight);
+    for (; n >= PIXELS; n -= PIXELS) {
+        add(&x, PIXELS, f, weight, &phase, per_pixel, &pixels);
         advance(&x);
-        if (++phase == per_pixel) {
-            phase = 0;
-            ++pixels;
-        }
     }
+    if (n > 0)
+        add(&x, n, f, weight, &phase, per_pixel, &pixels);
 }
 
-TARGET static ICCP_INLINE void store_one(const iccp_gathered *gathered, format f, uint8_t *to)
+/* Writes the means of n pixels. */
+TARGET static ICCP_INLINE void store_some(const iccp_gathered *pixels, size_t n, format f,
+                                          uint8_t *to)
 {
-    const float whole = gathered->weight * 0x1p24F;
-    floats x;
-    memcpy(&x, gathered->sums, sizeof x);
+    floats x, whole;
+    lanes weight, bytes;
+    take_sums(pixels, n, &x);
+    take_weights(pixels, n, &whole);
+    whole *= 0x1p24F;
+    weight = (lanes)whole;
     if (f.alpha) {
-        const float weight = x[OPACITY];
-        x /= (floats){weight, weight, weight, whole};
-        x[OPACITY] = (x[OPACITY] - 1) * 0x1p-8F;
-        x = _mm_max_ps(x, _mm_setzero_ps());
-    } else
-        x /= whole;
-    x = _mm_min_ps(x, _mm_set1_ps(255)) + 0.5F;
-    const channels4 colours = (channels4)_mm_cvttps_epi32(x);
-    put(&colours, f, to);
+        weight = (lanes)x;
+        spread_last(&weight);
+        replace_opacity(&weight, (const lanes *)&whole);
+    }
+    x /= (floats)weight;
+    if (f.alpha) {
+        const floats opacity = (x - 1) * 0x1p-8F;
+        bytes = (lanes)x;
+        replace_opacity(&bytes, (const lanes *)&opacity);
+        x = (floats)bytes;
+    }
+    limit(&x);
+    x += 0.5F;
+    floats_to_lanes(&x, &bytes);
+    bytes <<= 24;
+    put(&bytes, n, f.channels, to);
 }
 
-TARGET static ICCP_INLINE void store(const iccp_gathered *gathered, size_t n, format f, uint8_t *to)
+TARGET static ICCP_INLINE void store(const iccp_gathered *pixels, size_t n, format f, uint8_t *to)
 {
-    for (; n > 0; --n, ++gathered, to += f.channels)
-        store_one(gathered, f, to);
+    for (; n >= PIXELS; n -= PIXELS, pixels += PIXELS, to += PIXELS * f.channels)
+        store_some(pixels, PIXELS, f, to);
+    if (n > 0)
+        store_some(pixels, n, f, to);
 }
 
 #define KERNELS(name, channels, alpha, opaque)                                                     \

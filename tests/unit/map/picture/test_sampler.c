@@ -68,7 +68,8 @@ static iccp_line random_line(random_source *r, const icc_picture *p)
                        (end[1][1] - end[0][1]) / steps, n};
 }
 
-/* What a line gives: painted, and gathered and stored. */
+/* What a line gives: painted, and gathered and stored. A byte after the last pixel would show that
+ * too much is written. */
 typedef struct result {
     uint8_t painted[MOST_SAMPLES * MOST_BYTES + 1];
     uint8_t stored[(MOST_SAMPLES + 1) * MOST_BYTES + 1];
@@ -78,7 +79,6 @@ typedef struct result {
 static void sample(iccp_simd_level level, const icc_picture *p, const iccp_line *line, size_t phase,
                    size_t per_pixel, result *out)
 {
-    const size_t pixel = (size_t)(p->channels * p->bytes);
     const float weight = 1 / (float)per_pixel;
     iccp_gathered gathered[MOST_SAMPLES + 1] = {{{0}, 0}};
     iccp_sampler sampler;
@@ -86,13 +86,14 @@ static void sample(iccp_simd_level level, const icc_picture *p, const iccp_line 
     memset(out, 0, sizeof *out);
     iccp_sampler_paint(&sampler, line, out->painted);
     iccp_sampler_gather(&sampler, line, weight, phase, per_pixel, gathered);
+    size_t n = 0;
     for (size_t k = 0; k <= MOST_SAMPLES; ++k) {
         for (int32_t c = 0; c < p->channels; ++c)
             out->sums[k][c] = gathered[k].sums[c];
         out->sums[k][4] = gathered[k].weight;
-        if (gathered[k].weight > 0)
-            iccp_sampler_store(&sampler, &gathered[k], 1, out->stored + k * pixel);
+        n += gathered[k].weight > 0;
     }
+    iccp_sampler_store(&sampler, gathered, n, out->stored);
 }
 
 static void compare(random_source *r, const icc_picture *p)
