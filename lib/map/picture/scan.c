@@ -8,6 +8,7 @@
  * between the corners even in the thinnest triangle. */
 #include "map/picture/scan.h"
 
+#include "base/compiler.h"
 #include "math/elementary.h"
 
 #include <math.h>
@@ -69,7 +70,8 @@ void iccp_scan_create(iccp_scan *scan, const iccp_place *const places[3])
     choose_samples(scan, places);
 }
 
-int64_t iccp_first_sample(double x, int32_t n, int64_t end)
+/* Returns the first k with (k + 1/2) / n >= x, clamped to [0, end]. */
+static ICCP_INLINE int64_t first_sample(double x, int32_t n, int64_t end)
 {
     const double place = x * n;
     if (!(x > 0))
@@ -87,7 +89,7 @@ int64_t iccp_first_sample(double x, int32_t n, int64_t end)
     return k;
 }
 
-static inline iccp_place crossing(const iccp_edge *e, double y)
+static ICCP_INLINE iccp_place crossing(const iccp_edge *e, double y)
 {
     const double t = y - e->start.y;
     return (iccp_place){e->start.x + t * e->slope.x, y, e->start.u + t * e->slope.u,
@@ -95,8 +97,8 @@ static inline iccp_place crossing(const iccp_edge *e, double y)
 }
 
 /* Finds the run of samples at one height. Returns false if there is none. */
-static inline bool scan_row(const iccp_scan *scan, double y, int32_t n, int32_t width,
-                            size_t *begin, iccp_line *line)
+static ICCP_INLINE bool scan_row(const iccp_scan *scan, double y, int32_t n, int32_t width,
+                                 size_t *begin, iccp_line *line)
 {
     if (!(scan->whole.start.y <= y && y < scan->top))
         return false;
@@ -105,8 +107,8 @@ static inline bool scan_row(const iccp_scan *scan, double y, int32_t n, int32_t 
     const iccp_place *left = scan->whole_left ? &whole : &broken;
     const iccp_place *right = scan->whole_left ? &broken : &whole;
     const int64_t all = (int64_t)width * n;
-    const int64_t first = iccp_first_sample(left->x, n, all);
-    const int64_t end = iccp_first_sample(right->x, n, all);
+    const int64_t first = first_sample(left->x, n, all);
+    const int64_t end = first_sample(right->x, n, all);
     if (first >= end)
         return false;
     const double rate = 1 / (right->x - left->x);
@@ -118,8 +120,8 @@ static inline bool scan_row(const iccp_scan *scan, double y, int32_t n, int32_t 
     return true;
 }
 
-size_t iccp_scan_rows(const iccp_scan *scan, int32_t begin, int32_t end, int32_t columns,
-                      int32_t rows, int32_t width, iccp_run *runs)
+static ICCP_INLINE size_t scan_rows(const iccp_scan *scan, int32_t begin, int32_t end,
+                                    int32_t columns, int32_t rows, int32_t width, iccp_run *runs)
 {
     size_t n = 0;
     for (int32_t row = begin; row < end && row < scan->top; ++row)
@@ -129,4 +131,12 @@ size_t iccp_scan_rows(const iccp_scan *scan, int32_t begin, int32_t end, int32_t
             n += scan_row(scan, y, columns, width, &runs[n].begin, &runs[n].line);
         }
     return n;
+}
+
+/* One sample in a pixel needs no divisions by the numbers of samples. */
+size_t iccp_scan_rows(const iccp_scan *scan, int32_t begin, int32_t end, int32_t columns,
+                      int32_t rows, int32_t width, iccp_run *runs)
+{
+    return columns == 1 && rows == 1 ? scan_rows(scan, begin, end, 1, 1, width, runs)
+                                     : scan_rows(scan, begin, end, columns, rows, width, runs);
 }

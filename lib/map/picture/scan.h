@@ -33,9 +33,6 @@ void iccp_scan_create(iccp_scan *scan, const iccp_place *const places[3]);
 enum { ICCP_MOST_SAMPLES = 16 };
 int32_t iccp_samples_for(double distance);
 
-/* Returns the first k with (k + 1/2) / n >= x, clamped to [0, end]. */
-int64_t iccp_first_sample(double x, int32_t n, int64_t end);
-
 /* Neighbouring samples in a row of pixels: the number of the first one, counted from the left edge,
  * and their places in the source. */
 typedef struct iccp_run {
