@@ -18,8 +18,8 @@ typedef struct range {
 static range cells_between(const cage_grid *g, size_t k, double low, double high)
 {
     double last = (double)g->n[k] - 1;
-    double from = floor((low - g->near - g->corner[k]) / g->cell[k]),
-           to = floor((high + g->near - g->corner[k]) / g->cell[k]);
+    double from = (low - g->near - g->corner[k]) / g->cell[k],
+           to = (high + g->near - g->corner[k]) / g->cell[k];
     return (range){from > 0 ? (size_t)lesser(from, last) : 0,
                    to > 0 ? (size_t)lesser(to, last) : 0};
 }
@@ -135,4 +135,31 @@ void cage_grid_ask_box(cage_grid *g, const double lower[2], const double upper[2
     range columns = cells_between(g, 0, lower[0], upper[0]);
     for (size_t row = rows.first; row <= rows.last; row++)
         answer(g, row, columns);
+}
+
+/* True if an edge comes close to a box: their boxes overlap, and the line does not pass beside the
+ * box. */
+static bool meets(const cage_grid *g, uint32_t edge, const double lower[2], const double upper[2])
+{
+    const double *a = cage_end(g->cage, edge, 0), *b = cage_end(g->cage, edge, 1);
+    double middle[2], reach[2], d[2];
+    for (size_t k = 0; k < 2; k++) {
+        middle[k] = lower[k] / 2 + upper[k] / 2 - a[k];
+        reach[k] = upper[k] / 2 - lower[k] / 2 + 2 * g->near;
+        d[k] = b[k] - a[k];
+        if (greater(a[k], b[k]) < lower[k] - 2 * g->near ||
+            lesser(a[k], b[k]) > upper[k] + 2 * g->near)
+            return false;
+    }
+    return !(fabs(d[0] * middle[1] - d[1] * middle[0]) >
+             fabs(d[0]) * reach[1] + fabs(d[1]) * reach[0]);
+}
+
+bool cage_grid_is_far(cage_grid *g, const double lower[2], const double upper[2])
+{
+    cage_grid_ask_box(g, lower, upper);
+    for (size_t i = 0; i < g->n_found; i++)
+        if (meets(g, g->found[i], lower, upper))
+            return false;
+    return true;
 }

@@ -26,6 +26,9 @@ void cage_grid_ask(cage_grid *grid, const double a[2], const double b[2]);
  * cells. */
 void cage_grid_ask_box(cage_grid *grid, const double lower[2], const double upper[2]);
 
+/* True if all edges are more than `near` away from a box. */
+bool cage_grid_is_far(cage_grid *grid, const double lower[2], const double upper[2]);
+
 /* The ends of an edge of the cage. */
 static inline const double *cage_end(const carrier *c, uint32_t edge, size_t end)
 {

@@ -1,4 +1,4 @@
-/* Splits pieces of a line in rounds, and maps the check points of all open pieces at once. Or cuts
+/* Splits pieces of lines in rounds, and maps the check points of all open pieces at once. Or cuts
  * them at the map's edges, which takes one round. */
 #include "geo/densify.h"
 
@@ -24,12 +24,34 @@ void polyline_free(polyline *line)
     *line = (polyline){0};
 }
 
-static double distance_to_segment(const double a[2], const double b[2], const double p[2])
+/* The way from the nearest point of a segment to p. */
+static void way_from_segment(const double a[2], const double b[2], const double p[2], double way[2])
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
     double t = square > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square : 0;
     t = lesser(greater(t, 0), 1);
-    return hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
+    way[0] = p[0] - a[0] - t * dx;
+    way[1] = p[1] - a[1] - t * dy;
+}
+
+static double distance_to_segment(const double a[2], const double b[2], const double p[2])
+{
+    double way[2];
+    way_from_segment(a, b, p, way);
+    return hypot(way[0], way[1]);
+}
+
+/* True if hypot() of a way is above a limit. Squares tell, unless they are very close to each other,
+ * or small enough to underflow. */
+static bool is_longer(const double way[2], double limit)
+{
+    const double slack = 1e-12, tiny = 1e-280;
+    double square = way[0] * way[0] + way[1] * way[1], most = limit * limit;
+    if (square < most * (1 - slack) && most > tiny)
+        return false;
+    if (square > most * (1 + slack) && square > tiny && limit >= 0)
+        return true;
+    return hypot(way[0], way[1]) > limit;
 }
 
 /* A piece with a partial image is split as well, so that the gap begins where the map's does. The
@@ -44,9 +66,12 @@ static bool must_split(const double a[2], const double b[2], const double checks
         n_missing += isnan(checks[2 * c]) ? 1 : 0;
     if (n_missing > 0)
         return n_missing < N_CHECKS + 2;
-    for (size_t c = 0; c < N_CHECKS; c++)
-        if (distance_to_segment(from, to, checks + 2 * c) > tolerance)
+    for (size_t c = 0; c < N_CHECKS; c++) {
+        double way[2];
+        way_from_segment(from, to, checks + 2 * c, way);
+        if (is_longer(way, tolerance))
             return true;
+    }
     return false;
 }
 
@@ -57,15 +82,18 @@ static void point_between(const vertex *a, const vertex *b, double t, double out
 }
 
 /* Computes the images of the check points of every open piece. */
-static icc_status map_checks(const polyline *line, const carrier *c, size_t n_open, double *checks)
+static icc_status map_checks(size_t n_lines, polyline *const *lines, const carrier *c,
+                             size_t n_open, double *checks)
 {
     size_t n = 0;
     double *points = need(n_open * N_CHECKS, 2 * sizeof *points);
     icc_status *status = need(n_open * N_CHECKS, sizeof *status);
-    for (size_t i = 0; i + 1 < line->n; i++)
-        for (size_t k = 0; line->vertices[i].open && k < N_CHECKS; k++)
-            point_between(&line->vertices[i], &line->vertices[i + 1],
-                          (double)(k + 1) / (N_CHECKS + 1), points + 2 * n++);
+    for (size_t l = 0; l < n_lines; l++) {
+        const vertex *v = lines[l]->vertices;
+        for (size_t i = 0; i + 1 < lines[l]->n; i++)
+            for (size_t k = 0; v[i].open && k < N_CHECKS; k++)
+                point_between(&v[i], &v[i + 1], (double)(k + 1) / (N_CHECKS + 1), points + 2 * n++);
+    }
     icc_status ran = carrier_map(c, n, points, checks, status, NULL);
     free(points);
     free(status);
@@ -81,16 +109,32 @@ static vertex vertex_between(const vertex *a, const vertex *b, double t, const d
     point_between(a, b, t, v.point);
     at = fabs(to - at) <= 1 ? (1 - t) * at + t * to : at;
     v.from = (size_t)at;
+    /* Rounding may reach the next position. */
+    v.from -= v.from > a->from && v.from == b->from && !(b->along > 0);
     v.along = at - (double)v.from;
     return v;
 }
 
-/* Does one round: closes every open piece, or splits it into two open pieces. Returns the number of
- * open pieces. */
-static size_t split(polyline *line, const double *checks, double tolerance)
+/* Closes all open pieces if all are straight enough. */
+static bool close_straight(polyline *line, const double *checks, double tolerance)
+{
+    for (size_t i = 0; i + 1 < line->n; i++) {
+        const vertex *v = &line->vertices[i];
+        if (v->open && must_split(v->image, v[1].image, checks, tolerance))
+            return false;
+        checks += v->open ? 2 * N_CHECKS : 0;
+    }
+    for (size_t i = 0; i < line->n; i++)
+        line->vertices[i].open = false;
+    return true;
+}
+
+/* Does one round for a line: closes every open piece, or splits it into two open pieces. */
+static void split(polyline *line, const double *checks, double tolerance)
 {
     polyline next = {0};
-    size_t n_open = 0;
+    if (close_straight(line, checks, tolerance))
+        return;
     for (size_t i = 0; i < line->n; i++) {
         vertex v = line->vertices[i];
         const double *own = checks;
@@ -102,29 +146,61 @@ static size_t split(polyline *line, const double *checks, double tolerance)
             continue;
         vertex middle = vertex_between(&v, &line->vertices[i + 1], 0.5, own + N_CHECKS / 2 * 2);
         polyline_add(&next, &middle);
-        n_open += 2;
     }
     polyline_free(line);
     *line = next;
-    return n_open;
 }
 
-int polyline_densify(polyline *line, const carrier *c, double tolerance, problem *wrong)
+static size_t count_open(const polyline *line)
 {
-    size_t n_open = 0;
+    size_t n = 0;
     for (size_t i = 0; i + 1 < line->n; i++)
-        n_open += line->vertices[i].open;
-    for (size_t round = 0; round < MAX_ROUNDS && n_open > 0; round++) {
-        if (line->n + n_open > MAX_VERTICES) {
+        n += line->vertices[i].open;
+    return n;
+}
+
+/* Counts the open pieces of all lines. False if a line gets too long. */
+static bool count_all(size_t n, polyline *const *lines, size_t *n_open)
+{
+    *n_open = 0;
+    for (size_t l = 0; l < n; l++) {
+        size_t own = count_open(lines[l]);
+        *n_open += own;
+        if (own > 0 && lines[l]->n + own > MAX_VERTICES)
+            return false;
+    }
+    return true;
+}
+
+/* Does one round for all lines. */
+static icc_status split_all(size_t n, polyline *const *lines, const carrier *c, size_t n_open,
+                            double tolerance)
+{
+    double *checks = need(n_open, 2 * N_CHECKS * sizeof *checks);
+    const double *own = checks;
+    icc_status ran = map_checks(n, lines, c, n_open, checks);
+    for (size_t l = 0; l < n && ran == ICC_OK; l++) {
+        size_t own_open = count_open(lines[l]);
+        split(lines[l], own, tolerance);
+        own += 2 * N_CHECKS * own_open;
+    }
+    free(checks);
+    return ran;
+}
+
+int polylines_densify(size_t n, polyline *const *lines, const carrier *c, double tolerance,
+                      problem *wrong)
+{
+    for (size_t round = 0; round < MAX_ROUNDS; round++) {
+        size_t n_open;
+        if (!count_all(n, lines, &n_open)) {
             spoilt(wrong, 0, "--tolerance %g makes a line of more than %d positions", tolerance,
                    MAX_VERTICES);
             return FAILED;
         }
-        double *checks = need(n_open, 2 * N_CHECKS * sizeof *checks);
-        icc_status ran = map_checks(line, c, n_open, checks);
-        if (ran == ICC_OK)
-            n_open = split(line, checks, tolerance);
-        free(checks);
+        if (n_open == 0)
+            return DONE;
+        icc_status ran = split_all(n, lines, c, n_open, tolerance);
         if (ran != ICC_OK) {
             spoilt(wrong, 0, "%s", icc_status_name(ran));
             return FAILED;

@@ -24,10 +24,12 @@ typedef struct polyline {
 void polyline_add(polyline *line, const vertex *v);
 void polyline_free(polyline *line);
 
-/* Adds vertices until the image of each open piece is within `tolerance` of a straight line, as
- * tested at three points of the piece. There are at most 4096 pieces between two vertices. Where
- * the map has a gap there is a vertex without an image. DONE, or FAILED: see `wrong`. */
-int polyline_densify(polyline *line, const carrier *c, double tolerance, problem *wrong);
+/* Adds vertices to n lines until the image of each open piece is within `tolerance` of a straight
+ * line, as tested at three points of the piece. There are at most 4096 pieces between two vertices.
+ * Where the map has a gap there is a vertex without an image. Many lines at once take less time than
+ * one after the other. DONE, or FAILED: see `wrong`. */
+int polylines_densify(size_t n, polyline *const *lines, const carrier *c, double tolerance,
+                      problem *wrong);
 
 /* Cuts each open piece at the map's edges, which makes its image exact. With tolerance > 0, cuts
  * are then left out as long as the image stays that close. A piece gets the same vertices, bit by

@@ -16,6 +16,16 @@ typedef struct origin {
     uint32_t node;
 } origin;
 
+/* A geometry that lies in the cage and waits until its lines are mapped along with others. */
+typedef struct waiting {
+    uint32_t object;
+    size_t n_without;
+    bool whole;
+    geo_shape read;
+    polyline *lines;
+    size_t n_lines, room_lines;
+} waiting;
+
 typedef struct carriage {
     const carrier *cage;
     noding noding;
@@ -41,6 +51,8 @@ typedef struct carriage {
     size_t room_origins, room_images, room_status, room_snapped;
     polyline *lines;
     size_t n_lines, room_lines;
+    waiting *waits; /* room_waiting, of which n_waiting wait; with n_vertices in their lines */
+    size_t n_waiting, room_waiting, n_vertices;
 } carriage;
 
 /* The object of the current geometry. */

@@ -124,7 +124,7 @@ bool geo_refine_line(carriage *c, polyline *line)
 {
     close_on_cage(c, line);
     if (c->edges == NULL)
-        return polyline_densify(line, c->cage, c->options->tolerance, c->wrong) == DONE;
+        return polylines_densify(1, &line, c->cage, c->options->tolerance, c->wrong) == DONE;
     polyline_cut(line, c->edges, c->options->drop);
     return true;
 }
@@ -145,6 +145,24 @@ static void add_noded(carriage *c, bool all)
                                  !isnan(line->vertices[i + 1].image[0]);
 }
 
+/* Adds a path that meets no edge of the cage as a line. */
+static void add_free(carriage *c, size_t path)
+{
+    polyline *line = geo_add_line(c);
+    const geo_path *p = &c->shape.paths[path];
+    line->vertices = grow(line->vertices, &line->room, p->n, sizeof *line->vertices);
+    line->n = p->n;
+    for (size_t k = 0; k < p->n; k++) {
+        size_t i = p->first + k;
+        const origin *o = &c->origins[i];
+        vertex *v = &line->vertices[k];
+        *v = (vertex){
+            .position = o->position, .from = o->from, .along = o->along, .open = k + 1 < p->n};
+        memcpy(v->point, c->shape.points + 2 * i, sizeof v->point);
+        memcpy(v->image, c->images + 2 * i, sizeof v->image);
+    }
+}
+
 bool geo_has_gap(const polyline *line)
 {
     for (size_t i = 0; i < line->n; i++)
@@ -159,6 +177,10 @@ static bool node_all(carriage *c)
     bool whole = true;
     c->n_lines = 0;
     for (size_t p = 0; p < c->shape.n_paths && (whole || c->options->policy == GEO_KEEP); p++) {
+        if (noding_is_free(&c->noding, &c->shape, p, c->status, c->snapped)) {
+            add_free(c, p);
+            continue;
+        }
         whole = noding_path(&c->noding, &c->shape, p, c->status, c->snapped) && whole;
         add_noded(c, c->options->policy == GEO_KEEP || c->edges != NULL);
     }
@@ -214,21 +236,44 @@ geo_writer geo_writer_of(carriage *c)
     return (geo_writer){&c->out->edits, c->text, &c->read, &c->boxes[c->object]};
 }
 
-/* Adds a node of the layer to the shape. */
-static void add_vertex(carriage *c, origin o)
+/* Makes room for n vertices of the shape. */
+static void make_room(carriage *c, size_t n)
 {
-    size_t i = c->shape.n++, n = i + 1;
-    const geo_layer *l = &c->layer;
     c->origins = grow(c->origins, &c->room_origins, n, sizeof *c->origins);
     c->images = grow(c->images, &c->room_images, 2 * n, sizeof *c->images);
     c->status = grow(c->status, &c->room_status, n, sizeof *c->status);
     c->snapped = grow(c->snapped, &c->room_snapped, n, sizeof *c->snapped);
     c->shape.points = grow(c->shape.points, &c->shape.room_points, 2 * n, sizeof *c->shape.points);
+}
+
+/* Adds a node of the layer to the shape. */
+static void add_vertex(carriage *c, origin o)
+{
+    size_t i = c->shape.n++;
+    const geo_layer *l = &c->layer;
+    make_room(c, i + 1);
     c->origins[i] = o;
     memcpy(c->images + 2 * i, l->images + 2 * (size_t)o.node, 2 * sizeof *c->images);
     memcpy(c->shape.points + 2 * i, l->nodes + 2 * (size_t)o.node, 2 * sizeof *c->images);
     c->status[i] = l->status[o.node];
     c->snapped[i] = l->snapped[o.node];
+}
+
+/* Makes the shape of the one that has been read, whose positions are nodes of their own. */
+static void take_all(carriage *c)
+{
+    const geo_layer *l = &c->layer;
+    size_t n = c->read.n, first = l->first[c->object];
+    make_room(c, n);
+    for (size_t i = 0; i < n; i++)
+        c->origins[i] = (origin){.position = true, .from = i, .node = (uint32_t)(first + i)};
+    memcpy(c->images, l->images + 2 * first, 2 * n * sizeof *c->images);
+    memcpy(c->shape.points, l->nodes + 2 * first, 2 * n * sizeof *c->images);
+    memcpy(c->status, l->status + first, n * sizeof *c->status);
+    memcpy(c->snapped, l->snapped + first, n * sizeof *c->snapped);
+    if (c->read.n_paths > 0)
+        memcpy(c->shape.paths, c->read.paths, c->read.n_paths * sizeof *c->shape.paths);
+    c->shape.n = n;
 }
 
 /* Adds the nodes that are put into the side from a position to the next one. */
@@ -251,21 +296,25 @@ static void add_nodes_between(carriage *c, origin from, uint32_t to)
 static void put_nodes_in(carriage *c)
 {
     const geo_shape *read = &c->read;
-    size_t first = c->layer.first[c->object];
     geo_shape *s = &c->shape;
     s->n = 0;
     s->type = read->type;
     s->n_parts = read->n_parts;
     s->n_paths = read->n_paths;
     s->paths = grow(s->paths, &s->room_paths, s->n_paths, sizeof *s->paths);
+    if (c->layer.node == NULL) {
+        take_all(c);
+        return;
+    }
+    const uint32_t *node = c->layer.node + c->layer.first[c->object];
     for (size_t p = 0; p < s->n_paths; p++) {
         const geo_path *path = &read->paths[p];
         s->paths[p] = (geo_path){.first = s->n, .part = path->part};
         for (size_t i = path->first; i < path->first + path->n; i++) {
-            origin o = {.position = true, .from = i, .node = geo_layer_node(&c->layer, first + i)};
+            origin o = {.position = true, .from = i, .node = node[i]};
             add_vertex(c, o);
             if (i + 1 < path->first + path->n)
-                add_nodes_between(c, o, geo_layer_node(&c->layer, first + i + 1));
+                add_nodes_between(c, o, node[i + 1]);
         }
         s->paths[p].n = s->n - s->paths[p].first;
     }
@@ -307,8 +356,104 @@ static size_t count_jumps(const geo_shape *s)
     return n;
 }
 
+/* Ends a geometry whose lines are refined, if it still `writes`, or else cuts it or leaves it out. */
+static bool end_geometry(carriage *c, size_t n_without, bool whole, bool writes)
+{
+    if (!writes)
+        return c->options->policy == GEO_CLIP ? geo_cut(c, n_without) : geo_leave_out(c, n_without);
+    geo_writer w = geo_writer_of(c);
+    geo_write_in_place(&w, geo_current(c)->coordinates, c->n_lines, c->lines);
+    if (!whole)
+        geo_note_fault(c, n_without, "kept");
+    return true;
+}
+
+/* Exchanges the current geometry and one that waits. */
+static void exchange(carriage *c, waiting *w)
+{
+    waiting own = {
+        .read = c->read, .lines = c->lines, .n_lines = c->n_lines, .room_lines = c->room_lines};
+    c->read = w->read;
+    c->lines = w->lines;
+    c->n_lines = w->n_lines;
+    c->room_lines = w->room_lines;
+    w->read = own.read;
+    w->lines = own.lines;
+    w->n_lines = own.n_lines;
+    w->room_lines = own.room_lines;
+}
+
+/* Refines the lines of all geometries that wait. */
+static bool refine_waiting(carriage *c)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < c->n_waiting; i++)
+        n += c->waits[i].n_lines;
+    polyline **lines = need(n, sizeof *lines);
+    n = 0;
+    for (size_t i = 0; i < c->n_waiting; i++)
+        for (size_t l = 0; l < c->waits[i].n_lines; l++) {
+            lines[n] = &c->waits[i].lines[l];
+            close_on_cage(c, lines[n++]);
+        }
+    bool good = polylines_densify(n, lines, c->cage, c->options->tolerance, c->wrong) == DONE;
+    free(lines);
+    return good;
+}
+
+/* Refines the lines of all geometries that wait, and writes these. */
+static bool flush(carriage *c)
+{
+    uint32_t current = c->object;
+    bool good = refine_waiting(c);
+    for (size_t i = 0; i < c->n_waiting && good; i++) {
+        waiting *w = &c->waits[i];
+        bool writes = true;
+        exchange(c, w);
+        c->object = w->object;
+        for (size_t l = 0; l < c->n_lines && c->options->policy != GEO_KEEP; l++)
+            writes = writes && !geo_has_gap(&c->lines[l]);
+        if (!writes)
+            put_nodes_in(c);
+        good = end_geometry(c, w->n_without, w->whole, writes);
+        exchange(c, w);
+    }
+    c->n_waiting = c->n_vertices = 0;
+    c->object = current;
+    return good;
+}
+
+/* Lets the current geometry wait. */
+static bool wait_for_others(carriage *c, size_t n_without, bool whole)
+{
+    enum { ENOUGH = 8192 }; /* vertices */
+    if (c->n_waiting == c->room_waiting) {
+        size_t before = c->room_waiting;
+        c->waits = grow(c->waits, &c->room_waiting, c->n_waiting + 1, sizeof *c->waits);
+        memset(c->waits + before, 0, (c->room_waiting - before) * sizeof *c->waits);
+    }
+    waiting *w = &c->waits[c->n_waiting++];
+    exchange(c, w);
+    w->object = c->object;
+    w->n_without = n_without;
+    w->whole = whole;
+    for (size_t l = 0; l < w->n_lines; l++)
+        c->n_vertices += w->lines[l].n;
+    return c->n_vertices < ENOUGH || flush(c);
+}
+
+/* Flushes what waits before the current geometry, which is kept. */
+static bool flush_before(carriage *c)
+{
+    if (c->n_waiting == 0)
+        return true;
+    bool good = flush(c);
+    put_nodes_in(c);
+    return good;
+}
+
 /* Maps a geometry in place if it lies in the cage as a whole or is to be kept. Otherwise it follows
- * the policy. */
+ * the policy. Lines that are sampled wait for others. Faults are noted in the order of the text. */
 static bool carry_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);
@@ -328,15 +473,13 @@ static bool carry_geometry(carriage *c)
     if (c->noding.status != ICC_OK)
         return stop(c, c->noding.status);
     bool writes = whole || c->options->policy == GEO_KEEP;
+    if (writes && !points && c->edges == NULL)
+        return wait_for_others(c, n_without, whole);
+    if (!whole && !flush_before(c))
+        return false;
     if (writes && !refine(c, &writes))
         return false;
-    if (!writes)
-        return c->options->policy == GEO_CLIP ? geo_cut(c, n_without) : geo_leave_out(c, n_without);
-    geo_writer w = geo_writer_of(c);
-    geo_write_in_place(&w, o->coordinates, c->n_lines, c->lines);
-    if (!whole)
-        geo_note_fault(c, n_without, "kept");
-    return true;
+    return end_geometry(c, n_without, whole, writes);
 }
 
 static bool carry_objects(carriage *c)
@@ -351,7 +494,7 @@ static bool carry_objects(carriage *c)
         if (o->live && o->type < GEO_GEOMETRIES)
             good = carry_geometry(c);
     }
-    return good && geo_set_boxes(c);
+    return good && flush(c) && geo_set_boxes(c);
 }
 
 /* Reads the layer as a whole, maps its nodes, and decides how lines are mapped. */
@@ -377,6 +520,14 @@ static void free_carriage(carriage *c)
     for (size_t l = 0; l < c->room_lines; l++)
         polyline_free(&c->lines[l]);
     free(c->lines);
+    for (size_t i = 0; i < c->room_waiting; i++) {
+        waiting *w = &c->waits[i];
+        for (size_t l = 0; l < w->room_lines; l++)
+            polyline_free(&w->lines[l]);
+        free(w->lines);
+        geo_shape_free(&w->read);
+    }
+    free(c->waits);
     free(c->origins);
     free(c->images);
     free(c->status);

@@ -41,12 +41,6 @@ bool geo_layer_read(geo_layer *out, const geo_index *index, const char *text, do
                     bool joined, problem *wrong);
 void geo_layer_free(geo_layer *layer);
 
-/* The node of a position. */
-static inline uint32_t geo_layer_node(const geo_layer *layer, size_t position)
-{
-    return layer->node != NULL ? layer->node[position] : (uint32_t)position;
-}
-
 /* Maps the nodes. */
 icc_status geo_layer_map(geo_layer *layer, const carrier *c);
 

@@ -231,3 +231,20 @@ bool noding_path(noding *x, const geo_shape *shape, size_t path, const icc_statu
     }
     return whole;
 }
+
+bool noding_is_free(noding *x, const geo_shape *shape, size_t path, const icc_status *status,
+                    const bool *snapped)
+{
+    const geo_path *p = &shape->paths[path];
+    double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (size_t i = p->first; i < p->first + p->n; i++) {
+        if (status[i] != ICC_OK || snapped[i])
+            return false;
+        for (size_t k = 0; k < 2; k++) {
+            double at = shape->points[2 * i + k];
+            lower[k] = at < lower[k] ? at : lower[k];
+            upper[k] = at > upper[k] ? at : upper[k];
+        }
+    }
+    return p->n > 0 && cage_grid_is_far(&x->grid, lower, upper);
+}

@@ -36,6 +36,10 @@ void noding_free(noding *x);
 bool noding_path(noding *x, const geo_shape *shape, size_t path, const icc_status *status,
                  const bool *snapped);
 
+/* True if all of a path lies in the cage and away from its edges. Its nodes are its vertices then. */
+bool noding_is_free(noding *x, const geo_shape *shape, size_t path, const icc_status *status,
+                    const bool *snapped);
+
 /* True if a point lies outside the cage by more than `slack`. */
 bool noding_is_outside(noding *x, const double point[2], double slack);
 
