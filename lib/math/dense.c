@@ -90,27 +90,46 @@ TARGET static ICCP_INLINE void load(const double *from, four *x)
     memcpy(x, from, sizeof *x);
 }
 
+TARGET static ICCP_INLINE void divide_four(double *to, const double *pivot, four *x)
+{
+    *x /= *pivot;
+    memcpy(to, x, sizeof *x);
+}
+
+/* Each column has a variable, because compilers would keep an array of them in memory. */
 TARGET static ICCP_INLINE void divide_strip(double *strip, size_t width, const double *pivot,
                                             const double *scaled)
 {
-    four column[ICCP_SQUARE];
-    for (size_t c = 0; c < width; ++c) {
-        load(strip + STRIP * c, &column[c]);
-        for (size_t k = 0; k < c; ++k)
-            column[c] -= column[k] * scaled[ICCP_SQUARE * k + c];
-        column[c] /= pivot[c];
-        memcpy(strip + STRIP * c, &column[c], sizeof column[c]);
-    }
+    const double *second = scaled + ICCP_SQUARE, *third = second + ICCP_SQUARE;
+    double *const to[ICCP_SQUARE] = {strip, strip + STRIP, strip + 2 * STRIP, strip + 3 * STRIP};
+    four a, b, c, d;
+    load(to[0], &a);
+    divide_four(to[0], pivot, &a);
+    if (width < 2)
+        return;
+    load(to[1], &b);
+    b -= a * scaled[1];
+    divide_four(to[1], pivot + 1, &b);
+    if (width < 3)
+        return;
+    load(to[2], &c);
+    c -= a * scaled[2];
+    c -= b * second[2];
+    divide_four(to[2], pivot + 2, &c);
+    if (width < 4)
+        return;
+    load(to[3], &d);
+    d -= a * scaled[3];
+    d -= b * second[3];
+    d -= c * third[3];
+    divide_four(to[3], pivot + 3, &d);
 }
 
 TARGET static void divide_fours(double *strip, size_t n_strips, size_t stride, size_t width,
                                 const double *pivot, const double *scaled)
 {
     for (size_t t = 0; t < n_strips; ++t, strip += stride)
-        if (width == ICCP_SQUARE)
-            divide_strip(strip, ICCP_SQUARE, pivot, scaled);
-        else
-            divide_strip(strip, width, pivot, scaled);
+        divide_strip(strip, width, pivot, scaled);
 }
 
 TARGET static ICCP_INLINE void subtract_four(double *to, const double *from)
