@@ -13,8 +13,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Creates the mesh, its Laplacian and the Laplacian's factor. Both planar methods start from
- * these. */
 icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err)
@@ -22,26 +20,28 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
     const double start = iccp_seconds();
     memset(base, 0, sizeof *base);
     base->cells = cells;
-    iccp_env part[3];
-    iccp_split(part, 3, (const double[]){4, 1, 4}, env);
-    icc_status status = iccp_planar_create(&base->mesh, domain, pieces, cells, &part[0], err);
-    if (status != ICC_OK)
-        return status;
-    const double meshed = iccp_seconds();
-    base->seconds_mesh = meshed - start;
-    if (base->mesh.n_vertices == base->mesh.n_boundary)
+    icc_status status = iccp_planar_create(&base->mesh, domain, pieces, cells, env, err);
+    base->seconds_mesh = iccp_seconds() - start;
+    if (status == ICC_OK && base->mesh.n_vertices == base->mesh.n_boundary) {
+        iccp_harmonic_free(base);
         status =
             iccp_fail(err, ICC_ERR_RESOLUTION, "the mesh has no vertex inside: use more cells");
-    if (status == ICC_OK) {
-        status = iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, &part[1]);
-        if (status == ICC_OK)
-            status = iccp_spd_create(&base->solver, &base->laplacian.matrix, &part[2]);
-        if (status != ICC_OK)
-            (void)iccp_fail(err, status, "the mesh's equations cannot be factorised");
     }
-    base->seconds_solve = iccp_seconds() - meshed;
+    return status;
+}
+
+icc_status iccp_harmonic_factorise(iccp_harmonic *base, const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 4}, env);
+    icc_status status =
+        iccp_laplacian_create(&base->laplacian, &base->mesh, ICCP_NO_NEIGHBOUR, &part[0]);
+    if (status == ICC_OK)
+        status = iccp_spd_create(&base->solver, &base->laplacian.matrix, &part[1]);
     if (status != ICC_OK)
-        iccp_harmonic_free(base);
+        (void)iccp_fail(err, status, "the mesh's equations cannot be factorised");
+    base->seconds_solve = iccp_seconds() - start;
     return status;
 }
 
@@ -53,10 +53,15 @@ void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
     info->spacing = iccp_planar_step(domain, base->cells) * scale[0] * scale[1];
 }
 
-void iccp_harmonic_free(iccp_harmonic *base)
+void iccp_harmonic_drop_factor(iccp_harmonic *base)
 {
     iccp_ldlt_free(&base->solver);
     iccp_laplacian_free(&base->laplacian);
+}
+
+void iccp_harmonic_free(iccp_harmonic *base)
+{
+    iccp_harmonic_drop_factor(base);
     iccp_planar_free(&base->mesh);
 }
 

@@ -15,10 +15,16 @@ typedef struct iccp_harmonic {
     double seconds_mesh, seconds_solve;
 } iccp_harmonic;
 
-/* See iccp_planar_create(). */
+/* Makes the mesh. See iccp_planar_create(). */
 icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err);
+
+/* Makes the Laplacian of the mesh and its factor. On failure the base can only be freed. */
+icc_status iccp_harmonic_factorise(iccp_harmonic *base, const iccp_env *env, icc_error *err);
+
+/* Frees the Laplacian and its factor. */
+void iccp_harmonic_drop_factor(iccp_harmonic *base);
 
 /* Frees the base, which may be all zero, but not a mesh that iccp_harmonic_move_mesh() has taken
  * out. */

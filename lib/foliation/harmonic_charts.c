@@ -41,8 +41,8 @@ static icc_status make_base(void *argument, size_t k, const iccp_env *env, icc_e
     return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
-/* Creates the meshes of the domains and their equations. A pair cuts corresponding facets into
- * the same number of pieces, so that the boundary vertices correspond. */
+/* Creates the meshes of the domains. A pair cuts corresponding facets into the same number of
+ * pieces, so that the boundary vertices correspond. */
 static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     const icc_domain *other = job->n > 1 ? job->domain[1] : NULL;
@@ -55,6 +55,13 @@ static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *
     return status;
 }
 
+static icc_status factorise(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    harmonic_job *job = argument;
+    const icc_status status = iccp_harmonic_factorise(&job->base[k], env, err);
+    return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
+}
+
 static icc_status make_image(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
     harmonic_job *job = argument;
@@ -64,16 +71,30 @@ static icc_status make_image(void *argument, size_t k, const iccp_env *env, icc_
                                  : ICC_ERR_MEMORY;
 }
 
-/* Maps both meshes to one circle. Each boundary vertex goes to the mean of its two arc-length
- * parameters. */
-static icc_status make_images(harmonic_job *job, const iccp_env *env)
+/* Has a factor only while it makes the image. */
+static icc_status make_image_alone(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    harmonic_job *job = argument;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){4, 1}, env);
+    icc_status status = factorise(job, k, &part[0], err);
+    if (status == ICC_OK)
+        status = make_image(job, k, &part[1], err);
+    iccp_harmonic_drop_factor(&job->base[k]);
+    return status;
+}
+
+/* Maps both meshes to one circle, by make_image() or make_image_alone(). Each boundary vertex goes
+ * to the mean of its two arc-length parameters. */
+static icc_status make_images(harmonic_job *job, iccp_side make, const iccp_env *env,
+                              icc_error *err)
 {
     job->turns = iccp_alloc_zero(&env->memory, job->base[0].mesh.n_boundary, sizeof *job->turns);
     if (job->turns == NULL)
         return ICC_ERR_MEMORY;
     for (size_t k = 0; k < job->n; ++k)
         iccp_add_arc_length(&job->base[k].mesh, 1.0 / (double)job->n, job->turns);
-    const icc_status status = iccp_side_by_side(env, job->n, make_image, job, NULL);
+    const icc_status status = iccp_side_by_side(env, job->n, make, job, err);
     iccp_free(&env->memory, job->turns);
     return status;
 }
@@ -107,7 +128,7 @@ static icc_status choose_centres(harmonic_job *job, const iccp_env *env, icc_err
         return status;
     if (job->options[1].maximum != NULL)
         return choose_given(job, 1, err);
-    status = make_images(job, env);
+    status = make_images(job, make_image, env, err);
     if (status == ICC_OK)
         job->centre[1] = iccp_nearest_vertex(&job->base[1].mesh, job->image[1],
                                              job->image[0] + 2 * (size_t)job->centre[0]);
@@ -127,16 +148,26 @@ static icc_status finish(void *argument, size_t k, const iccp_env *env, icc_erro
     return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
+/* Method foliation needs the factors again, for the charts. */
+static icc_status factorise_and_choose(harmonic_job *job, const iccp_env *env, icc_error *err)
+{
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){4, 1}, env);
+    const icc_status status = iccp_side_by_side(&part[0], job->n, factorise, job, err);
+    return status == ICC_OK ? choose_centres(job, &part[1], err) : status;
+}
+
 /* Tries one resolution: makes the meshes, then images in the disc (method disc) or centres (method
  * foliation), then the charts. If one chart fails, none is left. */
 static icc_status try_harmonic(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     iccp_env part[3];
-    iccp_split(part, 3, (const double[]){6, 1, 2}, env);
+    iccp_split(part, 3, (const double[]){3, 4, 2}, env);
     icc_status status = make_bases(job, &part[0], err);
     if (status == ICC_OK)
-        status = job->options[0].method == ICC_METHOD_DISC ? make_images(job, &part[1])
-                                                           : choose_centres(job, &part[1], err);
+        status = job->options[0].method == ICC_METHOD_DISC
+                     ? make_images(job, make_image_alone, &part[1], err)
+                     : factorise_and_choose(job, &part[1], err);
     if (status == ICC_OK)
         status = iccp_side_by_side(&part[2], job->n, finish, job, err);
     for (size_t k = 0; k < job->n; ++k) {

@@ -105,6 +105,7 @@ static void foliation_init(foliation *f, icc_domain *domain, const uint32_t *pie
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     f->domain = domain;
     ck_assert_int_eq(iccp_harmonic_create(&f->base, domain, pieces, cells, &env, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_harmonic_factorise(&f->base, &env, NULL), ICC_OK);
     const iccp_planar *mesh = &f->base.mesh;
     iccp_frame_in(&domain->frame, 2, maximum, local);
     const uint32_t centre = iccp_nearest_vertex(mesh, mesh->points, local);

@@ -192,6 +192,7 @@ static icc_chart *chart_of_corridor(const icc_domain *domain, int32_t cells)
                               0.5 * (domain->lower[1] + domain->upper[1])};
     iccp_planar_pieces(pieces, domain, NULL, cells);
     ck_assert_int_eq(iccp_harmonic_create(&base, domain, pieces, cells, &env, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_harmonic_factorise(&base, &env, NULL), ICC_OK);
     const uint32_t centre = iccp_nearest_vertex(&base.mesh, base.mesh.points, middle);
     ck_assert_int_eq(iccp_chart_foliation_create(&chart, domain, &base, centre, &env, NULL),
                      ICC_OK);

@@ -24,6 +24,7 @@ static subject subject_of(const shape *s, int32_t cells)
     ck_assert_int_eq(iccp_env_read(&x.env, NULL, NULL), ICC_OK);
     iccp_planar_pieces(pieces, x.domain, NULL, cells);
     ck_assert_int_eq(iccp_harmonic_create(&x.base, x.domain, pieces, cells, &x.env, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_harmonic_factorise(&x.base, &x.env, NULL), ICC_OK);
     const uint32_t centre = iccp_deepest_vertex(&x.base.mesh, x.domain);
     ck_assert_int_eq(iccp_psi_create(&x.psi, &x.base.mesh, &x.base.laplacian, &x.base.solver,
                                      centre, 0.5, &x.env),
