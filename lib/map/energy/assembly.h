@@ -40,15 +40,16 @@ void iccp_assembly_free(iccp_assembly *assembly);
 /* Allocates the sums, unless they are there. On failure the assembly can only be freed. */
 icc_status iccp_assembly_make_room(iccp_assembly *assembly);
 
-/* Makes an assembly with sums for another map of the same mesh with the same free points. It borrows
- * `pattern`, which must live longer. The pattern is only read, so several assemblies may share
- * it. */
+/* Makes an assembly with sums for another map of the same mesh with the same free points. It
+ * borrows `pattern`, which must live longer. The pattern is only read, so several assemblies may
+ * share it. */
 icc_status iccp_assembly_share(iccp_assembly *assembly, const iccp_assembly *pattern,
                                const iccp_simplicial_map *map, const iccp_memory *memory);
 
-/* Prepares for a factorisation that eliminates row i at position[i]. From now on, each row holds only
- * its own block and its entries in later rows, which are all that the factorisation reads. With `n_parts` > 1 the rows are divided
- * into parts of about equal size, which can be summed at the same time. */
+/* Prepares for a factorisation that eliminates row i at position[i]. From now on, each row holds
+ * only its own block and its entries in later rows, which are all that the factorisation reads.
+ * With `n_parts` > 1 the rows are divided into parts of about equal size, which can be summed at
+ * the same time. */
 icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts,
                                 const iccp_env *env);
 

@@ -40,8 +40,8 @@ static icc_status begin_side(void *argument, size_t k, const iccp_env *env, icc_
 }
 
 /* In the plane, finding the order of elimination takes one thread longer than the first Hessian. So
- * other threads compute that Hessian meanwhile, if its energy is known. Otherwise the sums get their
- * room last, when the rows are short and what served the order is freed. */
+ * other threads compute that Hessian meanwhile, if its energy is known. Otherwise the sums get
+ * their room last, when the rows are short and what served the order is freed. */
 static icc_status begin(iccp_newton *s, const iccp_energy *first, bool has_order,
                         const iccp_env *env)
 {
