@@ -174,9 +174,19 @@ static bool reads_back(decimal d, double value)
     return !(read < value || read > value);
 }
 
+/* True if 15 digits cannot read back as the number with these 17. They are off by at most half of the
+ * last binary digit, which is less than 2^-53 10^17, or 11.2, in units of the last of 17 digits. */
+static bool needs_all(decimal d)
+{
+    unsigned rest = (unsigned)(d.digits % 100);
+    return rest >= 12 && rest <= 88;
+}
+
 size_t decimal_write_short(char text[DECIMAL_ROOM], double value)
 {
     decimal d;
+    if (has_exact_quotients() && find_digits(&d, fabs(value), 17) && needs_all(d))
+        return put(text, value, d);
     if (has_exact_quotients() && find_digits(&d, fabs(value), DBL_DIG))
         return reads_back(d, fabs(value)) ? put(text, value, d) : decimal_write(text, value);
     int length = snprintf(text, DECIMAL_ROOM, "%.15g", value);

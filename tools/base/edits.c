@@ -30,8 +30,19 @@ void edits_put_text(edits *e, const char *text)
 
 void edits_put_number(edits *e, double value)
 {
-    e->bytes = grow(e->bytes, &e->room_bytes, e->n_bytes + DECIMAL_ROOM, 1);
-    e->n_bytes += decimal_write_short(e->bytes + e->n_bytes, value);
+    char *at = edits_room(e, DECIMAL_ROOM);
+    edits_end(e, at + decimal_write_short(at, value));
+}
+
+char *edits_room(edits *e, size_t n)
+{
+    e->bytes = grow(e->bytes, &e->room_bytes, e->n_bytes + n, 1);
+    return e->bytes + e->n_bytes;
+}
+
+void edits_end(edits *e, const char *end)
+{
+    e->n_bytes = (size_t)(end - e->bytes);
     e->list[e->n - 1].to = e->n_bytes;
 }
 
@@ -44,6 +55,16 @@ static int by_begin(const void *a, const void *b)
                             : (p->from > q->from) - (p->from < q->from);
 }
 
+/* Sorts the edits, which are often in order. */
+static void sort(edits *e)
+{
+    size_t i = 1;
+    while (i < e->n && by_begin(&e->list[i - 1], &e->list[i]) <= 0)
+        i++;
+    if (i < e->n)
+        qsort(e->list, e->n, sizeof *e->list, by_begin);
+}
+
 static size_t put(const char *bytes, size_t n, FILE *stream)
 {
     if (n > 0 && stream != NULL)
@@ -54,8 +75,7 @@ static size_t put(const char *bytes, size_t n, FILE *stream)
 size_t edits_write(edits *e, const char *text, size_t n, FILE *stream)
 {
     size_t at = 0, written = 0;
-    if (e->n > 0)
-        qsort(e->list, e->n, sizeof *e->list, by_begin);
+    sort(e);
     for (size_t i = 0; i < e->n; i++) {
         const edit *one = &e->list[i];
         if (one->begin < at)

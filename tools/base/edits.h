@@ -26,6 +26,11 @@ void edits_put(edits *e, size_t n, const char *bytes);
 void edits_put_text(edits *e, const char *text);
 void edits_put_number(edits *e, double value);
 
+/* The place for the next bytes of the last replacement, with room for n. edits_end() then tells where
+ * those that were written end. */
+char *edits_room(edits *e, size_t n);
+void edits_end(edits *e, const char *end);
+
 /* Writes the text with its edits and returns the number of bytes. With NULL as the stream it only
  * counts them. */
 size_t edits_write(edits *e, const char *text, size_t n, FILE *stream);

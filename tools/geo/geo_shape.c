@@ -39,33 +39,42 @@ static double read_number(const char *p, const char **end)
     return decimal_read(p);
 }
 
-/* Reads a position at *cursor: two finite numbers, and any further numbers. */
-static bool read_position(geo_shape *out, const char *text, const char **cursor,
-                          const double *known)
+/* Reads the numbers of a position, from the bracket at p to the one at its end, which is returned.
+ * NULL if these are not two finite numbers, and any further numbers. */
+static const char *read_numbers(const char *p, double xy[2])
 {
-    const char *p = skip_blanks(*cursor), *begin = p, *number, *end;
-    double xy[2] = {NAN, NAN};
-    if (*p != '[')
-        return false;
+    const char *end;
+    xy[0] = xy[1] = NAN;
     p = skip_blanks(p + 1);
-    for (size_t k = 0; known == NULL && k < 2 && (*p == '-' || (*p >= '0' && *p <= '9')); k++) {
+    for (size_t k = 0; k < 2 && (*p == '-' || (*p >= '0' && *p <= '9')); k++) {
         xy[k] = read_number(p, &end);
         p = skip_blanks(end);
         p = *p == ',' && k == 0 ? skip_blanks(p + 1) : p;
     }
-    while ((number = geo_next_number(p, &end)) != NULL)
+    while (geo_next_number(p, &end) != NULL)
         p = end;
     p = skip_blanks(p);
-    if (known != NULL)
+    return *p == ']' && isfinite(xy[0]) && isfinite(xy[1]) ? p : NULL;
+}
+
+/* Reads a position at *cursor. */
+static bool read_position(geo_shape *out, const char *text, const char **cursor,
+                          const double *known)
+{
+    const char *begin = skip_blanks(*cursor), *end = NULL;
+    double xy[2];
+    if (*begin == '[' && known != NULL) {
         memcpy(xy, known + 2 * out->n, sizeof xy);
-    if (*p != ']' || !isfinite(xy[0]) || !isfinite(xy[1]))
+        end = strchr(begin, ']');
+    } else if (*begin == '[')
+        end = read_numbers(begin, xy);
+    if (end == NULL)
         return false;
-    *cursor = p + 1;
+    *cursor = end + 1;
     out->spans = grow(out->spans, &out->room_spans, out->n + 1, sizeof *out->spans);
     out->points = grow(out->points, &out->room_points, 2 * (out->n + 1), sizeof *out->points);
-    out->spans[out->n] = (geo_span){(size_t)(begin - text), (size_t)(p + 1 - text)};
-    out->points[2 * out->n] = xy[0];
-    out->points[2 * out->n++ + 1] = xy[1];
+    out->spans[out->n] = (geo_span){(size_t)(begin - text), (size_t)(end + 1 - text)};
+    memcpy(out->points + 2 * out->n++, xy, sizeof xy);
     return true;
 }
 

@@ -1,6 +1,7 @@
 /* Writes positions with the original's brackets, blanks and further numbers. */
 #include "geo/geo_write.h"
 
+#include "base/decimal.h"
 #include "base/extremes.h"
 
 #include <math.h>
@@ -56,19 +57,27 @@ static const char *last_number_end(const char *p)
     return p;
 }
 
+static char *append(char *at, const char *begin, const char *end)
+{
+    size_t n = (size_t)(end - begin);
+    memcpy(at, begin, n);
+    return at + n;
+}
+
 /* Writes a position in the layout of the position that it is or follows. */
 static void write_position(geo_writer *w, const vertex *v)
 {
     geo_span span = w->shape->spans[v->from];
     const char *begin = w->text + span.begin, *end = w->text + span.end, *x_end, *y_end;
     const char *x = geo_next_number(begin, &x_end), *y = geo_next_number(x_end, &y_end);
-    copy(w, begin, x);
-    edits_put_number(w->edits, v->image[0]);
-    copy(w, x_end, y);
-    edits_put_number(w->edits, v->image[1]);
-    if (v->position)
-        copy(w, y_end, end);
-    else {
+    char *at = edits_room(w->edits, span.end - span.begin + 2 * DECIMAL_ROOM);
+    at = append(at, begin, x);
+    at += decimal_write_short(at, v->image[0]);
+    at = append(at, x_end, y);
+    at += decimal_write_short(at, v->image[1]);
+    at = v->position ? append(at, y_end, end) : at;
+    edits_end(w->edits, at);
+    if (!v->position) {
         size_t next = v->from + 1 < w->shape->n ? v->from + 1 : v->from;
         const char *q_end, *q = w->text + w->shape->spans[next].begin;
         geo_next_number(q, &q_end);
