@@ -305,6 +305,11 @@ def _make_function(line: str) -> Any:
     return function
 
 
+def plain(name: str) -> Any:
+    """A function of the library that takes ctypes objects as they are. Nothing is converted, so a call is faster."""
+    return _library["icc_" + name]
+
+
 structs = _Lazy(STRUCTS, _make_struct)
 """ctypes structures: structs.error is icc_error."""
 

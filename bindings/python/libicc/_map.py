@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, List, Literal, Optional, Sequence, Tuple,
 
 import numpy as np
 
-from ._abi import lib, new, structs
+from ._abi import lib, new, plain, structs
 from ._chart import Chart, chart_options
 from ._core import (
     Call,
+    Handle,
     Progress,
     Saved,
     address,
@@ -30,7 +31,7 @@ from ._core import (
     points_of,
 )
 from ._domain import Domain, as_domain, as_domains
-from ._errors import blaming, check
+from ._errors import blaming, check, fail
 from ._field import Field, field_of
 from ._match import match_for
 from ._transform import Transform
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
 
 _PAIR = ctypes.c_double * 2
+_ONE = ctypes.c_size_t(1)
+_apply_plain = plain("map_apply")
 
 KINDS = {"curves": 1, "mesh": 2}
 SLIDES = {"all": 2}
@@ -234,12 +237,16 @@ class Map(Transform, Saved):
         """Maps points of the target to the source; otherwise like `apply`."""
         return self._apply(lib.map_apply_inverse, points, status, progress, threads)
 
-    def _one(self, x: float, y: float, **options: Any) -> Tuple[float, ...]:
-        if options:
-            return super()._one(x, y, **options)
-        point, image = _PAIR(x, y), _PAIR()
-        check(lib.map_apply(self._handle, 1, ctypes.addressof(point), ctypes.addressof(image), None, None, None))
-        return image[0], image[1]
+    def _take(self, handle: int, owner: Optional[Handle] = None) -> None:
+        super()._take(handle, owner)
+        self._pointer = ctypes.c_void_p(handle)
+
+    def _one(self, x: float, y: float) -> Tuple[float, ...]:
+        point = _PAIR(x, y)
+        status = _apply_plain(self._pointer, _ONE, point, point, None, None, None)
+        if status:
+            fail(status)
+        return point[0], point[1]
 
     def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> Floats:

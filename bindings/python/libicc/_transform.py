@@ -46,9 +46,9 @@ class Transform:
         Raises:
             OutsideError: for a geometry that lies partly outside. Points get NaN instead
         """
-        if len(axes) == 1 and type(points) is float and type(axes[0]) is float and self.dim == 2:
-            return self._one(points, axes[0], **options)
         if axes:
+            if type(points) is float and len(axes) == 1 and type(axes[0]) is float and not options and self.dim == 2:
+                return self._one(points, axes[0])
             return _by_axis(self, (points, *axes), options)
         if isinstance(points, np.ndarray):
             return self.apply(points, **options)
@@ -62,9 +62,9 @@ class Transform:
             return move_geojson(self, points if isinstance(points, dict) else points.__geo_interface__)
         return self.apply(points, **options)
 
-    def _one(self, x: float, y: float, **options: Any) -> Tuple[float, ...]:
+    def _one(self, x: float, y: float) -> Tuple[float, ...]:
         """The image of one point of the plane."""
-        return tuple(self.apply((x, y), **options)[0].tolist())
+        return tuple(self.apply((x, y))[0].tolist())
 
     @property
     def inverse(self) -> "Transform":
@@ -172,8 +172,8 @@ def _by_axis(mapping: Transform, axes: Tuple[Any, ...], options: Any) -> Tuple[A
     dim = mapping.dim
     if len(axes) < dim:
         raise TypeError(f"the map has {dim} coordinates; {len(axes)} are given")
-    if dim == 2 and all(type(axis) is float for axis in axes):
-        return (*mapping._one(*axes[:2], **options), *axes[2:])
+    if dim == 2 and not options and all(type(axis) is float for axis in axes):
+        return (*mapping._one(*axes[:2]), *axes[2:])
     arrays = np.broadcast_arrays(*(np.asarray(axis) for axis in axes[:dim]))
     images = mapping.apply(np.stack(arrays, axis=-1).reshape(-1, dim), **options).reshape(*arrays[0].shape, dim)
     moved = np.moveaxis(images, -1, 0)

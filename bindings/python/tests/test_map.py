@@ -25,6 +25,27 @@ def test_points_outside_have_no_image(before, after):
     assert np.isfinite(images[0]).all() and np.isnan(images[1]).all()
 
 
+def test_one_point_is_as_many(before, after, inside):
+    mapping = libicc.Map(before, after)
+    images = [tuple(image) for image in mapping(inside).tolist()]
+    points = inside.tolist()
+    assert [mapping(x, y) for x, y in points] == images
+    assert [mapping(x, y, threads=1) for x, y in points] == images
+    assert mapping(*points[0], 7.0) == (*images[0], 7.0)
+    assert np.isnan(mapping(9.0, 9.0)).all()
+    again = libicc.Map.from_bytes(mapping.to_bytes())
+    wrong = []
+
+    def work():
+        wrong.extend(p for p, image in zip(points * 50, images * 50) if again(*p) != image)
+    workers = [threading.Thread(target=work) for _ in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert wrong == []
+
+
 @pytest.mark.parametrize("method", ["foliation", "disc", "gradient", "field"])
 def test_charts(before, inside, method):
     chart = libicc.Chart(before, method, cells=40)
