@@ -259,21 +259,37 @@ static void add_vertex(carriage *c, origin o)
     c->snapped[i] = l->snapped[o.node];
 }
 
-/* Makes the shape of the one that has been read, whose positions are nodes of their own. */
-static void take_all(carriage *c)
+/* Takes the images of the nodes from `first` on. A geometry that has waited comes after later ones.
+ * It is mapped by itself, so that their images stay. */
+static icc_status take_images(carriage *c, size_t first, size_t n)
 {
-    const geo_layer *l = &c->layer;
-    size_t n = c->read.n, first = l->first[c->object];
+    geo_layer *l = &c->layer;
+    if (first < l->first_mapped)
+        return carrier_map(c->cage, n, l->nodes + 2 * first, c->images, c->status, c->snapped);
+    icc_status ran = geo_layer_map(l, c->cage, first, n);
+    if (ran != ICC_OK)
+        return ran;
+    size_t at = first - l->first_mapped;
+    memcpy(c->images, l->images + 2 * at, 2 * n * sizeof *c->images);
+    memcpy(c->status, l->status + at, n * sizeof *c->status);
+    memcpy(c->snapped, l->snapped + at, n * sizeof *c->snapped);
+    return ICC_OK;
+}
+
+/* Makes the shape of the one that has been read, whose positions are nodes of their own. False: see
+ * c->wrong. */
+static bool take_all(carriage *c)
+{
+    size_t n = c->read.n, first = c->layer.first[c->object];
     make_room(c, n);
     for (size_t i = 0; i < n; i++)
         c->origins[i] = (origin){.position = true, .from = i, .node = (uint32_t)(first + i)};
-    memcpy(c->images, l->images + 2 * first, 2 * n * sizeof *c->images);
-    memcpy(c->shape.points, l->nodes + 2 * first, 2 * n * sizeof *c->images);
-    memcpy(c->status, l->status + first, n * sizeof *c->status);
-    memcpy(c->snapped, l->snapped + first, n * sizeof *c->snapped);
+    memcpy(c->shape.points, c->layer.nodes + 2 * first, 2 * n * sizeof *c->images);
     if (c->read.n_paths > 0)
         memcpy(c->shape.paths, c->read.paths, c->read.n_paths * sizeof *c->shape.paths);
     c->shape.n = n;
+    icc_status ran = take_images(c, first, n);
+    return ran == ICC_OK || stop(c, ran);
 }
 
 /* Adds the nodes that are put into the side from a position to the next one. */
@@ -292,8 +308,8 @@ static void add_nodes_between(carriage *c, origin from, uint32_t to)
     }
 }
 
-/* Makes the shape that is carried of the one that has been read. */
-static void put_nodes_in(carriage *c)
+/* Makes the shape that is carried of the one that has been read. False: see c->wrong. */
+static bool put_nodes_in(carriage *c)
 {
     const geo_shape *read = &c->read;
     geo_shape *s = &c->shape;
@@ -302,10 +318,8 @@ static void put_nodes_in(carriage *c)
     s->n_parts = read->n_parts;
     s->n_paths = read->n_paths;
     s->paths = grow(s->paths, &s->room_paths, s->n_paths, sizeof *s->paths);
-    if (c->layer.node == NULL) {
-        take_all(c);
-        return;
-    }
+    if (c->layer.node == NULL)
+        return take_all(c);
     const uint32_t *node = c->layer.node + c->layer.first[c->object];
     for (size_t p = 0; p < s->n_paths; p++) {
         const geo_path *path = &read->paths[p];
@@ -318,6 +332,7 @@ static void put_nodes_in(carriage *c)
         }
         s->paths[p].n = s->n - s->paths[p].first;
     }
+    return true;
 }
 
 /* Counts the positions of the text that have no image. */
@@ -413,9 +428,7 @@ static bool flush(carriage *c)
         c->object = w->object;
         for (size_t l = 0; l < c->n_lines && c->options->policy != GEO_KEEP; l++)
             writes = writes && !geo_has_gap(&c->lines[l]);
-        if (!writes)
-            put_nodes_in(c);
-        good = end_geometry(c, w->n_without, w->whole, writes);
+        good = (writes || put_nodes_in(c)) && end_geometry(c, w->n_without, w->whole, writes);
         exchange(c, w);
     }
     c->n_waiting = c->n_vertices = 0;
@@ -447,9 +460,7 @@ static bool flush_before(carriage *c)
 {
     if (c->n_waiting == 0)
         return true;
-    bool good = flush(c);
-    put_nodes_in(c);
-    return good;
+    return flush(c) && put_nodes_in(c);
 }
 
 /* Maps a geometry in place if it lies in the cage as a whole or is to be kept. Otherwise it follows
@@ -463,7 +474,8 @@ static bool carry_geometry(carriage *c)
         return false;
     if (c->read.n == 0)
         return true;
-    put_nodes_in(c);
+    if (!put_nodes_in(c))
+        return false;
     size_t n_without = count_without(c);
     bool points = o->type <= GEO_MULTI_POINT;
     c->out->n_jumps += points ? 0 : count_jumps(&c->read);
@@ -511,7 +523,7 @@ static bool prepare_layer(carriage *c, map_edges *edges)
     c->out->exact = c->edges != NULL;
     c->out->n_shared = l->n_shared;
     c->out->n_put_in = l->n_on;
-    icc_status ran = geo_layer_map(l, c->cage);
+    icc_status ran = l->node != NULL ? geo_layer_map(l, c->cage, 0, l->n_nodes) : ICC_OK;
     return ran == ICC_OK || stop(c, ran);
 }
 

@@ -438,13 +438,18 @@ void geo_layer_free(geo_layer *layer)
     *layer = (geo_layer){0};
 }
 
-icc_status geo_layer_map(geo_layer *layer, const carrier *c)
+icc_status geo_layer_map(geo_layer *l, const carrier *c, size_t first, size_t n)
 {
-    size_t n = layer->n_nodes;
-    layer->images = need(n, 2 * sizeof *layer->images);
-    layer->status = need(n, sizeof *layer->status);
-    layer->snapped = need(n, sizeof *layer->snapped);
-    return carrier_map(c, n, layer->nodes, layer->images, layer->status, layer->snapped);
+    enum { AT_ONCE = 65536 };
+    if (first >= l->first_mapped && first + n <= l->first_mapped + l->n_mapped)
+        return ICC_OK;
+    size_t rest = l->n_nodes - first, wanted = n > AT_ONCE ? n : AT_ONCE;
+    l->first_mapped = first;
+    l->n_mapped = n = wanted < rest ? wanted : rest;
+    l->images = grow(l->images, &l->room_images, 2 * n, sizeof *l->images);
+    l->status = grow(l->status, &l->room_status, n, sizeof *l->status);
+    l->snapped = grow(l->snapped, &l->room_snapped, n, sizeof *l->snapped);
+    return carrier_map(c, n, l->nodes + 2 * first, l->images, l->status, l->snapped);
 }
 
 const layer_side *geo_layer_side(const geo_layer *layer, uint32_t a, uint32_t b)

@@ -21,10 +21,13 @@ typedef struct geo_layer {
     uint32_t *node; /* of each position; NULL if each is a node of its own */
     size_t n_nodes;
     double *nodes; /* 2 n_nodes; if `node` is not NULL, sorted by x, then by y */
-    /* Of each node: its image, the status of its mapping, and whether it was snapped before */
+    /* The nodes that have been mapped last, and of each of them: its image, the status of its
+     * mapping, and whether it was snapped before */
+    size_t first_mapped, n_mapped;
     double *images;
     icc_status *status;
     bool *snapped;
+    size_t room_images, room_status, room_snapped;
     /* Sides, sorted by a, then by b. There are none unless vertices are put into sides. */
     size_t n_sides;
     layer_side *sides;
@@ -41,8 +44,9 @@ bool geo_layer_read(geo_layer *out, const geo_index *index, const char *text, do
                     bool joined, problem *wrong);
 void geo_layer_free(geo_layer *layer);
 
-/* Maps the nodes. */
-icc_status geo_layer_map(geo_layer *layer, const carrier *c);
+/* Maps the nodes first .. first + n - 1 and some that follow, unless this has been done. The images
+ * of other nodes may be lost. */
+icc_status geo_layer_map(geo_layer *layer, const carrier *c, size_t first, size_t n);
 
 /* The side between two nodes, or NULL if nothing is put into it. */
 const layer_side *geo_layer_side(const geo_layer *layer, uint32_t a, uint32_t b);
