@@ -359,6 +359,10 @@ icc_status iccp_solid_map_point(const iccp_solid_map *map, bool inverse, const d
     for (size_t k = 0; k < 3; ++k)
         image[k] = to[0][k] + (bary[1] * (to[1][k] - to[0][k]) + bary[2] * (to[2][k] - to[0][k]) +
                                bary[3] * (to[3][k] - to[0][k]));
+    /* A vertex goes to its image exactly. */
+    for (size_t v = 0; v < 4; ++v)
+        if (from[v][0] == point[0] && from[v][1] == point[1] && from[v][2] == point[2])
+            memcpy(image, to[v], 3 * sizeof *image);
     if (jacobian != NULL) {
         const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
         iccp_simplicial_jacobian(&simplicial, inverse, simplex, jacobian);
