@@ -115,10 +115,13 @@ def leaning(places, lean):
 
 
 def torso(lean=0, breath=0):
-    """The body: "skin" and "organs" are pairs of vertices and triangles, "spine" is a line, "landmarks" are points."""
+    """The body: "skin" and "organs" are pairs of vertices and triangles, "spine" is a line, "landmarks" are points.
+
+    Coordinates are rounded, because the last bits of NumPy's sines differ between processors.
+    """
     surfaces = [skin(breath), lung(1, breath), lung(-1, breath), heart(breath)]
-    surfaces = [(leaning(vertices, lean), faces) for vertices, faces in surfaces]
-    spine, points = (leaning(places, lean) for places in spine_and_landmarks(breath))
+    surfaces = [(leaning(vertices, lean).round(9), faces) for vertices, faces in surfaces]
+    spine, points = (leaning(places, lean).round(9) for places in spine_and_landmarks(breath))
     return {"skin": surfaces[0], "organs": surfaces[1:], "spine": spine, "landmarks": points}
 
 

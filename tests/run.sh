@@ -21,15 +21,15 @@ esac
 need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev zlib1g-dev check libgmp-dev \
     abigail-tools python3-numpy python3-pytest python3-cffi tetgen
 if [ "$tier" = long ]; then
-    need clang libclang-rt-dev llvm python3-gmsh python3-h5py python3-netcdf4 python3-nibabel python3-pydicom \
+    need clang libclang-rt-dev llvm python3-gmsh python3-h5py python3-netcdf4 python3-pydicom \
         python3-nbclient python3-ipykernel qgis python3-qgis blender
 fi
 if [ "$tier" != plain ]; then
     need libsuitesparse-dev cargo rustc mypy doxygen mandoc man-db clang-format netpbm librsvg2-bin proj-bin gdal-bin \
         assimp-utils zsh fish libeigen3-dev libglm-dev \
         python3-setuptools python3-wheel python3-pip python3-venv \
-        python3-distributed python3-geopandas python3-matplotlib python3-meshio python3-pil python3-rasterio \
-        python3-shapely python3-skimage python3-vtk9 python3-xarray python3-zarr
+        python3-distributed python3-geopandas python3-matplotlib python3-meshio python3-nibabel python3-pil \
+        python3-rasterio python3-shapely python3-skimage python3-vtk9 python3-xarray python3-zarr
 fi
 
 preset=${1:-release}

@@ -27,7 +27,10 @@ def cells(*taken):
 
 
 def sphere(n):
-    """The vertices and triangles of a cube's surface, n squares along each edge, moved to a sphere."""
+    """The vertices and triangles of a cube's surface, n squares along each edge, moved to a sphere.
+
+    Coordinates are rounded, because the last bits of NumPy's functions differ between processors.
+    """
     square = [(i, j) for i in range(n) for j in range(n)]
     number, vertices, triangles = {}, [], []
     for axis in range(3):
@@ -43,7 +46,7 @@ def sphere(n):
                 a, b, c, d = corners if side == n else corners[::-1]
                 triangles += [(a, b, c), (a, c, d)]
     vertices = np.array(vertices)
-    return vertices / np.linalg.norm(vertices, axis=1)[:, None], np.array(triangles)
+    return (vertices / np.linalg.norm(vertices, axis=1)[:, None]).round(9), np.array(triangles)
 
 
 def ball():
@@ -55,7 +58,7 @@ def banana():
     vertices, triangles = sphere(6)
     x, y, z = vertices.T * [[1], [.35], [.35]]
     radius, angle = 1 - z, np.pi / 2 * x
-    return libicc.Domain(np.column_stack([radius * np.sin(angle), y, radius * np.cos(angle)]), triangles)
+    return libicc.Domain(np.column_stack([radius * np.sin(angle), y, radius * np.cos(angle)]).round(9), triangles)
 
 
 # How to make a body, cells of the grid along its longest side, and whether its border consists of vertices of the grid.

@@ -1,4 +1,7 @@
-"""Pairs of outlines: of the kinds that the papers draw, drawn anew but for the one with three legs."""
+"""Pairs of outlines: of the kinds that the papers draw, drawn anew but for the one with three legs.
+
+Coordinates are rounded, because the last bits of NumPy's sines differ between processors.
+"""
 
 from pathlib import Path
 
@@ -11,7 +14,7 @@ def finer(outline, pieces):
     """Each edge cut into equal pieces."""
     outline = np.asarray(outline, float)
     shares = np.arange(pieces)[:, None] / pieces
-    return np.vstack([a * (1 - shares) + b * shares for a, b in zip(outline, np.roll(outline, -1, axis=0))])
+    return np.vstack([a * (1 - shares) + b * shares for a, b in zip(outline, np.roll(outline, -1, axis=0))]).round(9)
 
 
 def square():
@@ -61,7 +64,7 @@ def long_thin():
         return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
 
     wound = np.vstack([spiral(3.2 - 2.2 * along), spiral(2.55 - 2.1 * along)[::-1]])
-    return strip, wound
+    return strip, wound.round(9)
 
 
 def tripus():
