@@ -161,8 +161,6 @@ static icc_status refine_and_flip(void *map, size_t *n_cut, const iccp_env *env)
 static icc_status unlock(iccp_plmap *map, const iccp_env *env)
 {
     size_t n_cut, n_flips;
-    if (!(iccp_plmap_energy(map) > ICCP_HIGH_ENERGY))
-        return ICC_OK;
     const double few = VERY_FEW * (double)map->corners.n_triangles;
     const icc_status status = cut_worst(map, few, true, &n_cut, env);
     return status == ICC_OK && n_cut > 0 ? iccp_flip_edges(map, &n_flips, env) : status;
@@ -233,8 +231,8 @@ static bool has_junctions(const iccp_plmap *map)
     return map->featured != NULL && iccp_network_of(map->featured)->n_junctions > 0;
 }
 
-icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
-                        iccp_improvement *improvement, const iccp_env *env)
+icc_status iccp_improve(iccp_plmap *map, double energy, const iccp_schedule *schedule,
+                        iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     static const iccp_profile PLANE = {.majorised = MAJORISED_STEPS,
                                        .least_gain = LEAST_GAIN,
@@ -243,8 +241,7 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
                                        .descend = descend,
                                        .refine = refine_and_flip};
     const bool starts = schedule->levels > 0 && !schedule->is_relaxed;
-    const double energy = iccp_plmap_energy(map);
-    icc_status status = starts ? unlock(map, env) : ICC_OK;
+    icc_status status = starts && energy > ICCP_HIGH_ENERGY ? unlock(map, env) : ICC_OK;
     if (status == ICC_OK)
         status = iccp_improve_by(&PLANE, map, schedule, work, improvement, env);
     if (status == ICC_OK && schedule->levels > 0 && has_junctions(map))

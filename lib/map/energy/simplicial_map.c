@@ -51,20 +51,22 @@ static double stretch_of(const iccp_simplicial_map *map, size_t simplex)
     return map->stretch * (sum / (double)n);
 }
 
-static void set_points(const iccp_simplicial_map *map, size_t simplex, const double **point)
+static ICCP_INLINE void set_points(size_t dim, const iccp_simplicial_map *map, size_t simplex,
+                                   const double **point)
 {
-    for (size_t k = 0; k <= map->dim; ++k)
-        point[k] = map->points + map->dim * map->corners[(map->dim + 1) * simplex + k];
+    for (size_t k = 0; k <= dim; ++k)
+        point[k] = map->points + dim * map->corners[(dim + 1) * simplex + k];
 }
 
 /* Returns true if rounding, of the corners too, may be all of the area or volume that doubles
  * found. */
-static bool is_flat(size_t dim, const double *const *corner, const double *element)
+static ICCP_INLINE bool is_flat(size_t dim, const double *const *corner, const double *element)
 {
     double most = 0, length = 0;
     for (size_t k = 0; k <= dim; ++k)
         for (size_t d = 0; d < dim; ++d) {
-            most = iccp_max(most, fabs(corner[k][d]));
+            const double size = fabs(corner[k][d]);
+            most = size > most ? size : most;
             length += fabs(corner[k][d] - corner[0][d]);
         }
     return dim == 2 ? !(2 * element[0] > ICCP_CROSS_ERROR * most * length)
@@ -83,19 +85,19 @@ static void set_flat_element(size_t dim, const double *const *point, double stre
 }
 
 /* Returns false if the simplex is flat. */
-static bool set_element(const iccp_simplicial_map *map, size_t simplex, double *element)
+static ICCP_INLINE bool set_element(size_t dim, const iccp_simplicial_map *map, size_t simplex,
+                                    double *element)
 {
-    const size_t dim = map->dim;
     const double stretch = stretch_of(map, simplex);
     double stretched[4][3];
     const double *point[4], *corner[4];
-    set_points(map, simplex, point);
+    set_points(dim, map, simplex, point);
     for (size_t k = 0; k <= dim; ++k) {
         for (size_t d = 0; d < dim; ++d)
             stretched[k][d] = stretch * point[k][d];
         corner[k] = stretched[k];
     }
-    iccp_element_create(dim, corner, element);
+    iccp_element_fill(dim, corner, element);
     if (!is_flat(dim, corner, element))
         return true;
     set_flat_element(dim, point, stretch, element);
@@ -104,32 +106,38 @@ static bool set_element(const iccp_simplicial_map *map, size_t simplex, double *
 
 void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element)
 {
-    (void)set_element(map, simplex, element);
+    if (map->dim == 2)
+        (void)set_element(2, map, simplex, element);
+    else
+        (void)set_element(3, map, simplex, element);
+}
+
+static ICCP_INLINE bool is_positive(size_t dim, const iccp_simplicial_map *map, size_t simplex)
+{
+    const double *p[ICC_MAX_DIM + 1];
+    iccp_simplicial_images(dim, map, simplex, p);
+    if (dim == 2)
+        return iccp_orient2d(p[0], p[1], p[2]) > 0;
+    if (dim == 3)
+        return iccp_orient3d(p[0], p[1], p[2], p[3]) > 0;
+    return iccp_orient(dim, p) > 0;
 }
 
 bool iccp_simplicial_is_positive(const iccp_simplicial_map *map, size_t simplex)
 {
-    const double *p[ICC_MAX_DIM + 1];
-    if (map->dim == 2) {
-        iccp_simplicial_images(2, map, simplex, p);
-        return iccp_orient2d(p[0], p[1], p[2]) > 0;
-    }
-    if (map->dim > 3) {
-        iccp_simplicial_images(map->dim, map, simplex, p);
-        return iccp_orient(map->dim, p) > 0;
-    }
-    iccp_simplicial_images(3, map, simplex, p);
-    return iccp_orient3d(p[0], p[1], p[2], p[3]) > 0;
+    return map->dim == 2   ? is_positive(2, map, simplex)
+           : map->dim == 3 ? is_positive(3, map, simplex)
+                           : is_positive(map->dim, map, simplex);
 }
 
-static bool has_image(const iccp_simplicial_map *map, size_t simplex)
+static ICCP_INLINE bool has_image(size_t dim, const iccp_simplicial_map *map, size_t simplex)
 {
     const double *p[ICC_MAX_DIM + 1];
     bool is_finite = true;
-    iccp_simplicial_images(map->dim, map, simplex, p);
-    for (size_t k = 0; k <= map->dim; ++k)
-        for (size_t d = 0; d < map->dim; ++d)
-            is_finite = is_finite && isfinite(p[k][d]);
+    iccp_simplicial_images(dim, map, simplex, p);
+    for (size_t k = 0; k <= dim; ++k)
+        for (size_t d = 0; d < dim; ++d)
+            is_finite &= isfinite(p[k][d]) != 0;
     return is_finite;
 }
 
@@ -139,13 +147,21 @@ typedef struct counting {
     atomic_size_t n_good;
 } counting;
 
+static ICCP_INLINE void count(size_t dim, counting *c, size_t begin, size_t end)
+{
+    size_t n_good = 0;
+    for (size_t s = begin; s < end; ++s)
+        n_good += has_image(dim, c->map, s) && is_positive(dim, c->map, s);
+    atomic_fetch_add(&c->n_good, n_good);
+}
+
 static icc_status count_some(void *argument, size_t begin, size_t end)
 {
     counting *c = argument;
-    size_t n_good = 0;
-    for (size_t s = begin; s < end; ++s)
-        n_good += has_image(c->map, s) && iccp_simplicial_is_positive(c->map, s);
-    atomic_fetch_add(&c->n_good, n_good);
+    if (c->map->dim == 2)
+        count(2, c, begin, end);
+    else
+        count(c->map->dim, c, begin, end);
     return ICC_OK;
 }
 
@@ -262,27 +278,33 @@ typedef struct terms {
 
 /* Doubles may find no area or volume in a simplex that is exactly positive, before the map or after
  * it. */
+static ICCP_INLINE void find_term(size_t dim, terms *t, size_t k)
+{
+    const iccp_simplicial_map *map = t->map;
+    const size_t simplex = t->first + k;
+    const double *point[4], *image[4];
+    double element[ICCP_MAX_ELEMENT];
+    iccp_simplicial_images(dim, map, simplex, image);
+    const bool is_solid = set_element(dim, map, simplex, element);
+    t->energy[k] = dim == 2 ? iccp_dirichlet_energy2(element, image)
+                            : iccp_dirichlet_energy(dim, element, image);
+    t->measure[k] = element[0];
+    if ((is_solid && t->energy[k] < HUGE_VAL) || !iccp_simplicial_is_positive(map, simplex))
+        return;
+    set_points(dim, map, simplex, point);
+    t->energy[k] = iccp_flat_energy(dim, point, stretch_of(map, simplex), image);
+}
+
 static icc_status find_terms(void *argument, size_t begin, size_t end)
 {
     terms *t = argument;
-    const iccp_simplicial_map *map = t->map;
-    for (size_t k = begin; k < end; ++k) {
-        const size_t simplex = t->first + k;
-        const double *point[4], *image[4];
-        double element[ICCP_MAX_ELEMENT];
-        if (map->dim > 3) {
-            t->energy[k] = energy_beyond(map, simplex, &t->measure[k]);
-            continue;
-        }
-        iccp_simplicial_images(map->dim, map, simplex, image);
-        const bool is_solid = set_element(map, simplex, element);
-        t->energy[k] = iccp_dirichlet_energy(map->dim, element, image);
-        t->measure[k] = element[0];
-        if ((is_solid && t->energy[k] < HUGE_VAL) || !iccp_simplicial_is_positive(map, simplex))
-            continue;
-        set_points(map, simplex, point);
-        t->energy[k] = iccp_flat_energy(map->dim, point, stretch_of(map, simplex), image);
-    }
+    for (size_t k = begin; k < end; ++k)
+        if (t->map->dim == 2)
+            find_term(2, t, k);
+        else if (t->map->dim == 3)
+            find_term(3, t, k);
+        else
+            t->energy[k] = energy_beyond(t->map, t->first + k, &t->measure[k]);
     return ICC_OK;
 }
 

@@ -4,14 +4,14 @@
 #include "base/clock.h"
 #include "base/minmax.h"
 
-icc_status iccp_plane_improve(iccp_plmap *pl, const icc_improve_options *options,
+icc_status iccp_plane_improve(iccp_plmap *pl, double energy, const icc_improve_options *options,
                               const iccp_schedule *how, iccp_work *work, bool *cancelled,
                               iccp_improvement *improvement, const iccp_env *env)
 {
     const iccp_schedule schedule =
         iccp_schedule_of(options, how, iccp_schedule_most(work, pl->corners.n_triangles));
     const iccp_env part = iccp_part(env, "improve", 0, 1);
-    const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
+    const icc_status status = iccp_improve(pl, energy, &schedule, work, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;
     return *cancelled ? ICC_OK : status;
 }
@@ -29,8 +29,8 @@ icc_status iccp_plane_complete(iccp_mesh_map *map, const icc_improve_options *op
     if (options->iterations >= 0) {
         iccp_improvement improvement;
         bool cancelled;
-        status =
-            iccp_plane_improve(&map->pl, options, how, work, &cancelled, &improvement, &part[0]);
+        status = iccp_plane_improve(&map->pl, info->energy_start, options, how, work, &cancelled,
+                                    &improvement, &part[0]);
         if (status == ICC_OK && cancelled)
             status = ICC_ERR_CANCELLED;
         info->energy = improvement.energy;
@@ -65,8 +65,8 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)
-        status = iccp_plane_improve(&better->pl, options, &iccp_schedule_plain, &work, &cancelled,
-                                    &improvement, env);
+        status = iccp_plane_improve(&better->pl, report->energy_start, options,
+                                    &iccp_schedule_plain, &work, &cancelled, &improvement, env);
     const iccp_env quiet = iccp_quiet(env);
     if (status == ICC_OK)
         status = iccp_mesh_map_finish(better, &info, &quiet);

@@ -5,9 +5,9 @@
 #include "map/compatible/improve.h"
 #include "map/plane/mesh_map.h"
 
-/* Improves as far as the options ask. If it is cancelled, *cancelled is true, the status is ICC_OK,
- * and the map is as good as it has become. */
-icc_status iccp_plane_improve(iccp_plmap *pl, const icc_improve_options *options,
+/* Improves a map that has this energy, as far as the options ask. If it is cancelled, *cancelled is
+ * true, the status is ICC_OK, and the map is as good as it has become. */
+icc_status iccp_plane_improve(iccp_plmap *pl, double energy, const icc_improve_options *options,
                               const iccp_schedule *how, iccp_work *work, bool *cancelled,
                               iccp_improvement *improvement, const iccp_env *env);
 

@@ -213,9 +213,10 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
     iccp_improvement ignored;
     bool cancelled = false;
     icc_status status = ICC_OK;
-    if (iccp_plmap_energy(pl) > ENTANGLED)
-        status = iccp_plane_improve(pl, options, &iccp_schedule_moving_points, &half, &cancelled,
-                                    &ignored, env);
+    const double energy = iccp_plmap_energy(pl);
+    if (energy > ENTANGLED)
+        status = iccp_plane_improve(pl, energy, options, &iccp_schedule_moving_points, &half,
+                                    &cancelled, &ignored, env);
     work->left -= half.spent;
     work->spent += half.spent;
     return cancelled ? ICC_ERR_CANCELLED : status;

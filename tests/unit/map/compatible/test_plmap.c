@@ -12,7 +12,7 @@ static icc_status improve(iccp_plmap *map, size_t iterations, double tolerance, 
 {
     const iccp_schedule schedule = {iterations, tolerance, levels, HUGE_VAL, false, false};
     iccp_work work = iccp_work_unlimited();
-    return iccp_improve(map, &schedule, &work, improvement, env);
+    return iccp_improve(map, iccp_plmap_energy(map), &schedule, &work, improvement, env);
 }
 
 /* The image of a point, through any triangle that holds it. */
@@ -304,7 +304,9 @@ START_TEST(what_locks_all_others_is_cut_first)
         }
         const double before = iccp_plmap_energy(&map);
         ck_assert_uint_eq(iccp_plmap_count_inverted(&map), 0);
-        ck_assert_int_eq(iccp_improve(&map, &schedule, &none, &improvement, &env), ICC_OK);
+        ck_assert_int_eq(
+            iccp_improve(&map, iccp_plmap_energy(&map), &schedule, &none, &improvement, &env),
+            ICC_OK);
         check_mesh(&map);
         ck_assert_uint_eq(map.n_vertices, n + (kind == 1));
         ck_assert_double_le(iccp_plmap_energy(&map), before * (1 + 1e-9));
@@ -388,7 +390,9 @@ START_TEST(work_is_never_exceeded)
         iccp_plmap map;
         iccp_improvement improvement;
         ck_assert_int_eq(iccp_plmap_copy(&map, &start, &env.memory), ICC_OK);
-        ck_assert_int_eq(iccp_improve(&map, &schedule, &work, &improvement, &env), ICC_OK);
+        ck_assert_int_eq(
+            iccp_improve(&map, iccp_plmap_energy(&map), &schedule, &work, &improvement, &env),
+            ICC_OK);
         check_certified(&map);
         ck_assert_double_le(work.spent, limits[k]);
         ck_assert(work.left >= 0 && (isinf(limits[k]) || work.spent + work.left == limits[k]));
