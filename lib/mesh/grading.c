@@ -56,17 +56,17 @@ static icc_status push_cell(level *l, const cell *c, const iccp_memory *memory)
     return ICC_OK;
 }
 
-static icc_status push_entry(level *l, uint32_t sample, const iccp_memory *memory)
+/* Makes room for n more entries. */
+static icc_status reserve_entries(level *l, size_t n, const iccp_memory *memory)
 {
-    if (l->n_entries == l->entry_room) {
-        const size_t room = 2 * l->entry_room + 256;
-        uint32_t *entries = iccp_grow(memory, l->entries, l->n_entries, room, sizeof *entries);
-        if (entries == NULL)
-            return ICC_ERR_MEMORY;
-        l->entries = entries;
-        l->entry_room = room;
-    }
-    l->entries[l->n_entries++] = sample;
+    if (n <= l->entry_room - l->n_entries)
+        return ICC_OK;
+    const size_t room = 2 * l->entry_room + n + 256;
+    uint32_t *entries = iccp_grow(memory, l->entries, l->n_entries, room, sizeof *entries);
+    if (entries == NULL)
+        return ICC_ERR_MEMORY;
+    l->entries = entries;
+    l->entry_room = room;
     return ICC_OK;
 }
 
@@ -79,7 +79,7 @@ static bool forbids(const iccp_samples *samples, uint32_t i, double x, double y,
     const double spare = width - samples->length[i], reach = spare + slack;
     const double dx = samples->points[2 * (size_t)i] - x;
     const double dy = samples->points[2 * (size_t)i + 1] - y;
-    return spare > 0 && dx * dx + dy * dy < reach * reach;
+    return (spare > 0) & (dx * dx + dy * dy < reach * reach);
 }
 
 static bool must_split(const builder *b, const level *l, const cell *c)
@@ -96,17 +96,21 @@ static bool is_kept(const iccp_samples *samples, uint32_t i, double x, double y,
     return forbids(samples, i, x, y, width, HALF_DIAGONAL * width);
 }
 
-/* Adds a child that keeps some of its parent's samples. */
+/* Adds a child that keeps some of its parent's samples. Whether it keeps one is hard to predict, so
+ * each is written, and the next one takes its place if it is not kept. */
 static icc_status add_child(const builder *b, const level *from, const cell *parent, level *to,
                             double x, double y)
 {
     cell child = {x, y, to->n_entries, 0};
+    if (reserve_entries(to, parent->n, b->memory) != ICC_OK)
+        return ICC_ERR_MEMORY;
+    uint32_t *own = to->entries + child.first;
     for (size_t e = parent->first; e < parent->first + parent->n; ++e) {
         const uint32_t i = from->entries[e];
-        if (is_kept(b->samples, i, x, y, to->width) && push_entry(to, i, b->memory) != ICC_OK)
-            return ICC_ERR_MEMORY;
+        own[child.n] = i;
+        child.n += is_kept(b->samples, i, x, y, to->width);
     }
-    child.n = to->n_entries - child.first;
+    to->n_entries += child.n;
     return push_cell(to, &child, b->memory);
 }
 
