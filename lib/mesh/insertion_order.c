@@ -89,7 +89,7 @@ static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, size_t
 {
     const uint64_t curve = (uint64_t)UINT32_MAX << CURVE_SHIFT;
     const axis x = measure(keys, n, dim, points), y = measure(keys, n, dim, points + 1);
-    const axis z = measure(keys, n, dim, points + (dim == 3 ? 2 : 1));
+    const axis z = dim == 3 ? measure(keys, n, dim, points + 2) : y;
     for (size_t i = 0; i < n; ++i) {
         const double *p = points + dim * index_of(keys[i]);
         const uint64_t place = dim == 2 ? hilbert(cell(&x, p[0]), cell(&y, p[1]))

@@ -24,33 +24,37 @@ static const double FARTHEST = 2, CLOSER = 0.9;
  * The model is too stiff where negative curvature is left out. */
 static const double LARGE_FALL = 0.3, BETTER = 1.5;
 
-/* The smallest positive root of det(t) = a + b t + c t^2, where a > 0, or infinity if there is
- * none. */
-static double first_root(double a, double b, double c)
+/* The smallest positive root of det(t) = a + b t + c t^2, where a > 0, or `least` if that is
+ * smaller. No root is computed if the changes up to `least` are at most half of a. Then the roots
+ * are larger by far, whatever rounding does. */
+static double first_root(double a, double b, double c, double least)
 {
+    if (a > 2 * least * (fabs(b) + fabs(c) * least))
+        return least;
     if (fabs(c) <= 1e-300)
-        return b < 0 ? -a / b : HUGE_VAL;
+        return iccp_min(least, b < 0 ? -a / b : HUGE_VAL);
     const double discriminant = b * b - 4 * a * c;
     if (discriminant < 0)
-        return HUGE_VAL;
+        return least;
     const double q = -0.5 * (b + copysign(sqrt(discriminant), b));
     const double r0 = q / c, r1 = fabs(q) > 0 ? a / q : HUGE_VAL;
     const double low = iccp_min(r0, r1), high = iccp_max(r0, r1);
-    return low > 0 ? low : high > 0 ? high : HUGE_VAL;
+    return iccp_min(least, low > 0 ? low : high > 0 ? high : HUGE_VAL);
 }
 
-/* How far corners can move along d before their triangle loses its area. */
-static double flip_along(const double *const p[3], const double d[3][2])
+/* How far corners can move along d before their triangle loses its area, or `least` if that is
+ * smaller. */
+static double flip_along(const double *const p[3], const double d[3][2], double least)
 {
     const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
     const double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
     const double dux = d[1][0] - d[0][0], duy = d[1][1] - d[0][1];
     const double dvx = d[2][0] - d[0][0], dvy = d[2][1] - d[0][1];
     return first_root(ux * vy - uy * vx, ux * dvy + dux * vy - uy * dvx - duy * vx,
-                      dux * dvy - duy * dvx);
+                      dux * dvy - duy * dvx, least);
 }
 
-static double flip_of(const iccp_newton *s, size_t e)
+static double flip_of(const iccp_newton *s, size_t e, double least)
 {
     const uint32_t *v = s->map.corners + 3 * (size_t)s->assembly.simplex[e];
     const double *p[3];
@@ -59,7 +63,7 @@ static double flip_of(const iccp_newton *s, size_t e)
     for (size_t k = 0; k < 3; ++k)
         if (s->assembly.slot[v[k]] != UINT32_MAX)
             memcpy(d[k], s->step + 2 * (size_t)s->assembly.slot[v[k]], sizeof d[k]);
-    return flip_along(p, (const double(*)[2])d);
+    return flip_along(p, (const double(*)[2])d, least);
 }
 
 /* Returns true if a tetrahedron p that moves along d keeps a positive volume up to the share t of
@@ -108,7 +112,7 @@ double iccp_newton_limit(const iccp_simplicial_map *map, const double *motion)
         iccp_simplicial_images(2, map, t, p);
         for (size_t k = 0; k < 3; ++k)
             memcpy(d[k], motion + 2 * (size_t)map->corners[3 * t + k], sizeof d[k]);
-        least = iccp_min(least, flip_along(p, (const double(*)[2])d));
+        least = flip_along(p, (const double(*)[2])d, least);
     }
     return least;
 }
@@ -121,9 +125,9 @@ typedef struct limit {
 static icc_status find_flips(void *argument, size_t begin, size_t end)
 {
     limit *l = argument;
-    double own = HUGE_VAL, least = atomic_load(&l->least);
+    double least = atomic_load(&l->least), own = least;
     for (size_t e = begin; e < end; ++e)
-        own = iccp_min(own, flip_of(l->s, e));
+        own = flip_of(l->s, e, own);
     while (own < least && !atomic_compare_exchange_weak(&l->least, &least, own))
         continue;
     return ICC_OK;
