@@ -22,6 +22,11 @@ void iccp_sampler_init_as(iccp_simd_level level, iccp_sampler *sampler, const ic
 void iccp_sampler_init(iccp_sampler *sampler, const icc_picture *source)
 {
     iccp_sampler_init_as(iccp_simd(), sampler, source);
+#ifdef ICCP_HAS_WASM_SIMD
+    const iccp_sampler_kernels *lanes = iccp_sampler_wasm(source);
+    if (lanes != NULL)
+        sampler->kernels = lanes;
+#endif
 }
 
 /* ---- lines ---- */

@@ -18,8 +18,9 @@
  * Ways
  * - Colours and a mesh map: triangle by triangle (warp.c, scan.h).
  * - Any other map, or values: pixel by pixel (warp_points.c, picture_values.h).
- * - One sample, by processor: sampler_portable.c, or sampler_sse.c and sampler_avx2.c from
- *   sampler_lanes.h. sampler.c chooses; sampler_kernels.h says what a kernel provides.
+ * - One sample, by processor: sampler_portable.c, or sampler_sse.c, sampler_avx2.c and
+ *   sampler_wasm.c from sampler_lanes.h. sampler.c chooses; sampler_kernels.h says what a kernel
+ *   provides.
  *
  * Begin with warp.c for the picture, and with sampler_portable.c for one sample. */
 #ifndef ICCP_SAMPLER_H
@@ -51,7 +52,8 @@ typedef struct iccp_sampler {
 
 void iccp_sampler_init(iccp_sampler *sampler, const icc_picture *source);
 
-/* Chooses kernels of a given level, which the processor must have. */
+/* Chooses kernels of a given level, which the processor must have. WebAssembly's vectors have no
+ * level. */
 void iccp_sampler_init_as(iccp_simd_level level, iccp_sampler *sampler, const icc_picture *source);
 
 /* Writes the samples to consecutive pixels, which have the source's format. Positions are rounded

@@ -33,5 +33,6 @@ const iccp_sampler_kernels *iccp_sampler_portable(const icc_picture *p);
 /* Kernels for vector instructions. NULL for formats that have none. */
 const iccp_sampler_kernels *iccp_sampler_sse(const icc_picture *p);
 const iccp_sampler_kernels *iccp_sampler_avx2(const icc_picture *p);
+const iccp_sampler_kernels *iccp_sampler_wasm(const icc_picture *p);
 
 #endif

@@ -5,8 +5,8 @@
  * columns, and then the columns. If opacities differ, the sums have up to 48 bits. Doubles hold
  * them exactly, so the results have the same bits as integers.
  *
- * The file that includes this one names the processor (TARGET) and PIXELS. It also defines the
- * functions that are declared under "vectors". */
+ * The file that includes this one names the processor (TARGET), and PIXELS if it is not 1. It also
+ * defines the functions that are declared under "vectors". */
 #ifndef ICCP_SAMPLER_LANES_H
 #define ICCP_SAMPLER_LANES_H
 
@@ -15,6 +15,10 @@
 #include "base/compiler.h"
 
 #include <string.h>
+
+#ifndef PIXELS
+#define PIXELS 1
+#endif
 
 /* Vectors are passed by pointer, because passing them by value depends on the processor. */
 typedef uint32_t lanes __attribute__((vector_size(16 * PIXELS)));

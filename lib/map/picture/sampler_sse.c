@@ -4,7 +4,6 @@
 #ifdef ICCP_HAS_SIMD
 
 #define TARGET ICCP_SSE42
-#define PIXELS 1
 
 #include "map/picture/sampler_lanes.h"
 
