@@ -65,6 +65,22 @@ static bool push_rim(iccp_facet_scan *scan)
     return true;
 }
 
+/* Looks for a face that is the whole facet, at the first edge of the rim. Nothing pierces it. */
+static bool find_whole(iccp_facet_scan *scan)
+{
+    iccp_tets *const m = scan->m;
+    const uint32_t *const e = scan->edges.item, *const c = scan->corners;
+    if (scan->edges.n != 9 || !iccp_tets_ring(m, e[0], e[1], e[2], m->n_tets))
+        return false;
+    for (size_t k = 0; k < m->link.n; ++k)
+        if (m->link.item[k] == c[0] || m->link.item[k] == c[1] || m->link.item[k] == c[2]) {
+            const uint32_t t = m->ring.item[k], beyond = m->link.item[(k + 1) % m->link.n];
+            const int side = iccp_tet_index(&m->tet[t], beyond);
+            return iccp_list_push(m, &scan->faces, 4 * t + (uint32_t)side);
+        }
+    return false;
+}
+
 /* Visits the edges of one tetrahedron that lie in the facet or pierce it, and its faces there. */
 static bool visit(iccp_facet_scan *scan, uint32_t t)
 {
@@ -98,6 +114,8 @@ bool iccp_facet_scan_run(iccp_facet_scan *scan, uint32_t facet)
     scan->edges.n = scan->piercing.n = scan->faces.n = 0;
     if (!push_rim(scan))
         return false;
+    if (find_whole(scan))
+        return true;
     for (size_t k = 0; k < scan->edges.n; k += 3) {
         const uint32_t *const e = scan->edges.item + k;
         if (!iccp_tets_ring(m, e[0], e[1], e[2], m->n_tets))

@@ -14,7 +14,7 @@ typedef struct iccp_facet_scan {
     /* Edges that lie in the facet or pierce it: two points and a tetrahedron each */
     iccp_list edges;
     iccp_list piercing; /* those of them that go from one side of the facet to the other */
-    iccp_list faces;    /* sides whose corners are on the facet; most of them appear twice */
+    iccp_list faces;    /* sides whose corners are on the facet; most of several appear twice */
 } iccp_facet_scan;
 
 void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_constraints *s);
