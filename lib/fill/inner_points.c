@@ -281,13 +281,17 @@ static bool make_sizes(refinement *r, const iccp_constraints *s)
 icc_status iccp_tets_refine(iccp_tets *m, const iccp_constraints *s,
                             const iccp_fill_options *options, const iccp_env *env, icc_error *err)
 {
-    enum { MOST_ROUNDS = 12, FEW = 5 };
+    enum { MOST_ROUNDS = 12 };
+    /* Refinement goes on after a round with this many new points. One point can change the whole
+     * mesh: all tetrahedra of a ball have the centre of the ball as their circumcentre. For maps,
+     * a few points more are not worth a round. */
+    const size_t few = options->for_map ? 5 : 1;
     refinement r = {.m = m, .options = options};
     icc_status status = make_sizes(&r, s) ? ICC_OK : iccp_fail_memory(err);
     const uint32_t before = m->round;
     uint64_t n_all = 0;
-    size_t n = FEW;
-    for (int round = 0; round < MOST_ROUNDS && n >= FEW && status == ICC_OK; ++round) {
+    size_t n = few;
+    for (int round = 0; round < MOST_ROUNDS && n >= few && status == ICC_OK; ++round) {
         n = 0;
         ++m->round;
         if (!fill_queue(&r, round == 0))

@@ -331,6 +331,61 @@ START_TEST(few_points_suffice)
 }
 END_TEST
 
+/* The least sine of a tetrahedron's dihedral angles. */
+static double least_sine(const double *const p[4])
+{
+    double normal[4][3], length[4], least = 1;
+    for (int i = 0; i < 4; ++i) {
+        const double *a = p[(i + 1) % 4], *b = p[(i + 2) % 4], *c = p[(i + 3) % 4];
+        for (int k = 0; k < 3; ++k) {
+            const int u = (k + 1) % 3, v = (k + 2) % 3;
+            normal[i][k] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+        }
+        length[i] = sqrt(normal[i][0] * normal[i][0] + normal[i][1] * normal[i][1] +
+                         normal[i][2] * normal[i][2]);
+    }
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < i; ++j) {
+            double cosine = 0;
+            for (int k = 0; k < 3; ++k)
+                cosine += normal[i][k] * normal[j][k] / (length[i] * length[j]);
+            least = fmin(least, sqrt(fmax(0, 1 - cosine * cosine)));
+        }
+    return least;
+}
+
+static double least_sine_of(const icc_domain *domain)
+{
+    const icc_domain_info info = info_of_domain(domain);
+    double *x = malloc(3 * info.n_mesh_vertices * sizeof *x), least = 1;
+    uint32_t *t = malloc(4 * info.n_mesh_simplices * sizeof *t);
+    ck_assert_int_eq(flat_domain_mesh(domain, x, t), ICC_OK);
+    for (size_t i = 0; i < info.n_mesh_simplices; ++i) {
+        const double *p[4];
+        for (size_t k = 0; k < 4; ++k)
+            p[k] = x + 3 * t[4 * i + k];
+        least = fmin(least, least_sine(p));
+    }
+    free(x);
+    free(t);
+    return least;
+}
+
+/* All tetrahedra of a ball have its centre as their circumcentre. It is inserted first, and then
+ * the tetrahedra at the centre are long. */
+START_TEST(balls_are_refined)
+{
+    random_source r = {5};
+    for (int splits = 3; splits <= 5; ++splits) {
+        surface_star(&shape, splits, 0, &r);
+        icc_domain *filled = fill(&shape, NULL);
+        ck_assert_double_gt(least_sine_of(filled), sin(0.2));
+        ck_assert_uint_lt(info_of_domain(filled).n_mesh_simplices, 5 * shape.n_vertices);
+        icc_domain_free(filled);
+    }
+}
+END_TEST
+
 static icc_status fill_once(const icc_env *env, icc_error *err, void *argument)
 {
     icc_domain *filled;
@@ -434,6 +489,7 @@ int main(void)
     tcase_add_test(tests, the_same_bits_again);
     tcase_add_test(tests, arguments_are_checked);
     tcase_add_test(tests, few_points_suffice);
+    tcase_add_test(tests, balls_are_refined);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
