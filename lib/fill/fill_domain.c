@@ -224,15 +224,15 @@ static icc_status make(iccp_tets *m, iccp_constraints *s, const icc_domain *surf
     m->points.n_dyadic = 0; /* all are doubles now */
     m->metric.on = false;
     if (status == ICC_OK)
-        status = iccp_tets_clean_up(m, &stage[CLEAN_UP], err);
-    const bool refine = options->ratio < HUGE_VAL, split = refine && !options->for_map;
+        status = iccp_tets_clean_up(m, options->for_map, &stage[CLEAN_UP], err);
+    const bool refine = options->ratio < HUGE_VAL;
     const uint64_t n = m->points.n;
     const uint64_t most =
         options->max_points < UINT64_MAX - n ? n + options->max_points : UINT64_MAX;
     if (status == ICC_OK && refine)
         status = iccp_tets_refine(m, s, options, &stage[REFINE], err);
     if (status == ICC_OK)
-        status = iccp_tets_improve(m, split ? most : 0, &stage[IMPROVE], err);
+        status = iccp_tets_improve(m, !options->for_map, refine ? most : 0, &stage[IMPROVE], err);
     return status;
 }
 

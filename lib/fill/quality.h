@@ -23,6 +23,10 @@ static inline double iccp_tet_quality(const double *a, const double *b, const do
     return cube > 0.0 ? 432.0 * volume * fabs(volume) / cube : 0.0;
 }
 
+/* Returns the square of the least sine of a tetrahedron's dihedral angles, or 0 if it is not
+ * positive. */
+double iccp_square_sine(const double *a, const double *b, const double *c, const double *d);
+
 /* Returns the quality of a tetrahedron in the mesh's metric. */
 static inline double iccp_metric_quality(const iccp_tets *m, const uint32_t corner[4])
 {
@@ -35,13 +39,16 @@ static inline double iccp_metric_quality(const iccp_tets *m, const uint32_t corn
     return iccp_tet_quality(x[0], x[1], x[2], x[3]);
 }
 
-/* Returns the quality of a tetrahedron in the mesh's metric. */
+/* Returns the quality of a tetrahedron by the measure of the present stage. */
 static inline double iccp_tets_quality(const iccp_tets *m, uint32_t a, uint32_t b, uint32_t c,
                                        uint32_t d)
 {
     const iccp_points *const p = &m->points;
     if (m->metric.on)
         return iccp_metric_quality(m, (const uint32_t[4]){a, b, c, d});
+    if (m->by_angle)
+        return iccp_square_sine(iccp_point(p, a), iccp_point(p, b), iccp_point(p, c),
+                                iccp_point(p, d));
     return iccp_tet_quality(iccp_point(p, a), iccp_point(p, b), iccp_point(p, c), iccp_point(p, d));
 }
 

@@ -12,10 +12,16 @@
 
 #include <string.h>
 
-/* Least improvement, and the quality from which tetrahedra are left alone. Quality 0.03 means
- * dihedral angles of some 10 degrees, and 0.1 some 18. */
-static const double gain = 1e-4, good = 0.12;
+/* Least improvement, and the quality from which tetrahedra are left alone: by volume, where 0.03
+ * means dihedral angles of some 10 degrees, and 0.1 some 18; and by angle, where 0.1 is 18 degrees.
+ */
+static const double gain = 1e-4, good = 0.12, good_angle = 0.1;
 static const size_t most_ring = 8;
+
+static bool is_good(const iccp_tets *m, uint32_t t)
+{
+    return iccp_quality_of(m, t) >= (m->by_angle ? good_angle : good);
+}
 
 typedef struct edge {
     const iccp_tets *m;
@@ -29,25 +35,23 @@ static double worth(void *context, uint32_t x, uint32_t y, uint32_t z, bool inne
     return iccp_min(iccp_tets_quality(e->m, x, y, z, e->q), iccp_tets_quality(e->m, y, x, z, e->p));
 }
 
-static bool try_edge(iccp_tets *m, uint32_t t, uint32_t p, uint32_t q)
+static bool try_edge(iccp_tets *m, uint32_t t, double worst, uint32_t p, uint32_t q)
 {
     edge e = {m, p, q};
     const iccp_removal removal = {worth, &e, false};
     if (!iccp_tets_ring(m, p, q, t, most_ring))
         return false;
-    const double worst = iccp_quality_of(m, t);
     for (size_t k = 1; k < m->ring.n; ++k)
         if (iccp_quality_of(m, m->ring.item[k]) < worst)
             return false; /* the other tetrahedron has its own turn */
     return iccp_remove_edge(m, p, q, &removal, worst + gain * fabs(worst));
 }
 
-static bool try_face(iccp_tets *m, uint32_t side)
+static bool try_face(iccp_tets *m, uint32_t side, double worst)
 {
     uint32_t fresh[3][4];
     if (!iccp_face_removed(m, side, fresh))
         return false;
-    const double worst = iccp_quality_of(m, side / 4);
     if (iccp_quality_of(m, m->tet[side / 4].across[side % 4] / 4) < worst)
         return false;
     for (int i = 0; i < 3; ++i)
@@ -60,22 +64,30 @@ static bool try_face(iccp_tets *m, uint32_t side)
 bool iccp_improve_tet(iccp_tets *m, uint32_t t)
 {
     const iccp_tet tet = m->tet[t];
+    const double worst = iccp_quality_of(m, t);
     for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j)
-            if (try_edge(m, t, tet.v[i], tet.v[j]))
+            if (try_edge(m, t, worst, tet.v[i], tet.v[j]))
                 return true;
     for (uint32_t i = 0; i < 4; ++i)
-        if (try_face(m, 4 * t + i))
+        if (try_face(m, 4 * t + i, worst))
             return true;
     return false;
 }
 
-/* Returns the worst quality at a point whose star is in m->star, or something below `least`. */
-static double worst_at(const iccp_tets *m, double least)
+/* Returns the worst quality at a point whose star is in m->star, or something that is not above
+ * `least`. *last is the place of the worst tetrahedron in the star. It is looked at first, because
+ * it often is the worst in the next place, too. */
+static double worst_at(const iccp_tets *m, double least, size_t *last)
 {
-    double worst = 1.0;
-    for (size_t k = 0; k < m->star.n && worst > least; ++k)
-        worst = iccp_min(worst, iccp_quality_of(m, m->star.item[k]));
+    double worst = iccp_quality_of(m, m->star.item[*last]);
+    for (size_t k = 0; k < m->star.n && worst > least; ++k) {
+        const double quality = iccp_quality_of(m, m->star.item[k]);
+        if (quality < worst) {
+            worst = quality;
+            *last = k;
+        }
+    }
     return worst;
 }
 
@@ -92,14 +104,15 @@ static bool all_positive(const iccp_tets *m)
 typedef struct mover {
     iccp_tets *m;
     uint32_t p;
+    size_t last; /* see worst_at() */
 } mover;
 
 /* The worst quality at a point, whose star is in m->star, after a move. */
 static double move_worth(void *context, const double *x, double least)
 {
-    const mover *const c = context;
+    mover *const c = context;
     memcpy(c->m->points.x + 3 * (size_t)c->p, x, 3 * sizeof *x);
-    const double worst = worst_at(c->m, least);
+    const double worst = worst_at(c->m, least, &c->last);
     return worst > least && all_positive(c->m) ? worst : -HUGE_VAL;
 }
 
@@ -109,7 +122,9 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p)
     double middle[3] = {0}, nearest = HUGE_VAL;
     if (!iccp_tets_star(m, p))
         return false;
-    const double before = worst_at(m, -HUGE_VAL), least = before + gain * fabs(before);
+    mover context = {m, p, 0};
+    const double before = worst_at(m, -HUGE_VAL, &context.last),
+                 least = before + gain * fabs(before);
     iccp_place best = {{now[0], now[1], now[2]}, least};
     for (size_t k = 0; k < m->star.n; ++k)
         for (int c = 0; c < 4; ++c) {
@@ -120,7 +135,6 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p)
             for (int i = 0; i < 3; ++i)
                 middle[i] += y[i] / (3.0 * (double)m->star.n);
         }
-    mover context = {m, p};
     const iccp_place_measure by = {move_worth, &context};
     iccp_search_place(&m->points, &by, middle, nearest, &best);
     memcpy(now, best.x, sizeof best.x);
@@ -132,13 +146,21 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p)
     return true;
 }
 
+static bool has_inner_point(const iccp_tets *m, uint32_t t)
+{
+    const uint32_t *const v = m->tet[t].v;
+    const size_t n = m->points.n_fixed;
+    return v[0] >= n || v[1] >= n || v[2] >= n || v[3] >= n;
+}
+
 /* A try that failed in the last round is repeated only where something has changed since, because
  * it would fail again. */
-static void flip_all(iccp_tets *m)
+static void flip_bad(iccp_tets *m, bool everywhere)
 {
     const size_t n = m->n_tets;
     for (uint32_t t = 0; t < n; ++t)
-        if (iccp_tet_alive(m, t) && iccp_tet_touched(m, t) && iccp_quality_of(m, t) < good)
+        if (iccp_tet_alive(m, t) && (everywhere || has_inner_point(m, t)) &&
+            iccp_tet_touched(m, t) && !is_good(m, t))
             iccp_improve_tet(m, t);
 }
 
@@ -148,13 +170,13 @@ static uint32_t stamp_bad(iccp_tets *m)
 {
     const uint32_t stamp = iccp_tets_stamp(m);
     for (uint32_t t = 0; t < m->n_tets; ++t)
-        if (iccp_tet_alive(m, t) && iccp_tet_touched(m, t) && iccp_quality_of(m, t) < good)
+        if (iccp_tet_alive(m, t) && iccp_tet_touched(m, t) && !is_good(m, t))
             for (int i = 0; i < 4; ++i)
                 m->seen[m->tet[t].v[i]] = stamp;
     return stamp;
 }
 
-icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err)
+icc_status iccp_tets_clean_up(iccp_tets *m, bool everywhere, const iccp_env *env, icc_error *err)
 {
     enum { ROUNDS = 4 };
     const double enough = 1e-4; /* worst quality that may remain */
@@ -168,23 +190,27 @@ icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err)
             if (m->tet_of[p] != ICCP_NO_TET && iccp_point_touched(m, p) &&
                 !iccp_contract_best(m, p, enough))
                 iccp_smooth_point(m, p);
-        flip_all(m);
+        flip_bad(m, everywhere);
     }
     return ICC_OK;
 }
 
-icc_status iccp_tets_improve(iccp_tets *m, uint64_t most, const iccp_env *env, icc_error *err)
+icc_status iccp_tets_improve(iccp_tets *m, bool by_angle, uint64_t most, const iccp_env *env,
+                             icc_error *err)
 {
     enum { ROUNDS = 4 };
+    m->by_angle = by_angle;
+    for (size_t p = 0; p < m->points.n && by_angle; ++p)
+        m->touched[p] = m->round; /* nothing has been tried by this measure */
     for (int round = 0; round < ROUNDS; ++round) {
         const icc_status status =
             iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));
         if (status != ICC_OK)
             return status;
         ++m->round;
-        flip_all(m);
-        if (round > 0)
-            iccp_split_slivers(m, most);
+        flip_bad(m, true);
+        if (by_angle && round > 0)
+            iccp_split_slivers(m, round == 1, most);
         const uint32_t stamp = stamp_bad(m);
         for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)
             if (m->tet_of[p] != ICCP_NO_TET && m->seen[p] == stamp && iccp_point_touched(m, p))

@@ -12,58 +12,28 @@
 /* Squared sine below which a dihedral angle makes a sliver: some 6 degrees */
 static const double flat = 0.01;
 
-/* Returns the square of the least sine of a tetrahedron's dihedral angles, or 0 if it is not
- * positive. */
-static double square_sine(const double *const x[4])
-{
-    double area[4], all = 1.0, least = 1.0;
-    const double volume = iccp_points_volume(x[0], x[1], x[2], x[3]);
-    if (!(volume > 0.0))
-        return 0.0;
-    for (int i = 0; i < 4; ++i) {
-        const uint8_t *const f = iccp_tet_face[i];
-        const double *const a = x[f[0]], *const b = x[f[1]], *const c = x[f[2]];
-        area[i] = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            const int u = (k + 1) % 3, v = (k + 2) % 3;
-            const double n = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
-            area[i] += n * n;
-        }
-        all *= area[i];
-    }
-    for (int i = 0; i < 4; ++i)
-        for (int j = i + 1; j < 4; ++j)
-            least = iccp_min(least, volume * volume * iccp_square_distance(x[i], x[j]) * area[i] *
-                                        area[j] / all);
-    return least;
-}
-
-static double square_sine_of(const iccp_tets *m, uint32_t t)
-{
-    const double *x[4];
-    for (int i = 0; i < 4; ++i)
-        x[i] = iccp_point(&m->points, m->tet[t].v[i]);
-    return square_sine(x);
-}
-
 typedef struct splitter {
     const iccp_tets *m;
     uint32_t p, q;
+    size_t last; /* place in the link where the least sine was; it often is there again */
 } splitter;
 
 /* The least squared sine after point x has replaced edge pq, whose link is in m->link. */
 static double split_worth(void *context, const double *x, double least)
 {
-    const splitter *const c = context;
+    splitter *const c = context;
     const iccp_points *const points = &c->m->points;
     const double *const p = iccp_point(points, c->p), *const q = iccp_point(points, c->q);
     const iccp_list *const link = &c->m->link;
     double worst = 1.0;
-    for (size_t k = 0; k < link->n && worst > least; ++k) {
-        const double *const a = iccp_point(points, link->item[k]);
-        const double *const b = iccp_point(points, link->item[(k + 1) % link->n]);
-        worst = iccp_min(worst, square_sine((const double *const[4]){x, q, a, b}));
-        worst = iccp_min(worst, square_sine((const double *const[4]){p, x, a, b}));
+    for (size_t k = 0, place = c->last; k <= link->n && worst > least; place = k++) {
+        const double *const a = iccp_point(points, link->item[place]);
+        const double *const b = iccp_point(points, link->item[(place + 1) % link->n]);
+        const double one = iccp_square_sine(x, q, a, b), other = iccp_square_sine(p, x, a, b);
+        if (iccp_min(one, other) < worst) {
+            worst = iccp_min(one, other);
+            c->last = place;
+        }
     }
     return worst;
 }
@@ -85,7 +55,7 @@ static bool try_split(iccp_tets *m, uint32_t t, uint32_t p, uint32_t q, iccp_pla
         for (int i = 0; i < 3; ++i)
             middle[i] += y[i] / (double)m->link.n;
     }
-    splitter context = {m, p, q};
+    splitter context = {m, p, q, 0};
     const iccp_place_measure by = {split_worth, &context};
     iccp_search_place(&m->points, &by, middle, nearest, &own);
     if (!(own.worth > best->worth))
@@ -113,12 +83,12 @@ static void split_edge(iccp_tets *m, uint32_t t, uint32_t p, uint32_t q, const d
         iccp_tets_drop_point(m);
 }
 
-/* Replaces the best edge of a tetrahedron by a point if the least angle there doubles. It must,
- * because every point makes more tetrahedra. */
+/* Replaces the best edge of a tetrahedron by a point if the square of the least sine there doubles.
+ * It must, because every point makes more tetrahedra. */
 static void split_tet(iccp_tets *m, uint32_t t)
 {
     const iccp_tet tet = m->tet[t];
-    iccp_place best = {{0}, 4.0 * square_sine_of(m, t)};
+    iccp_place best = {{0}, 2.0 * iccp_quality_of(m, t)};
     int from = 0, to = 0;
     for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j)
@@ -128,10 +98,11 @@ static void split_tet(iccp_tets *m, uint32_t t)
         split_edge(m, t, tet.v[from], tet.v[to], best.x);
 }
 
-void iccp_split_slivers(iccp_tets *m, uint64_t most)
+void iccp_split_slivers(iccp_tets *m, bool first, uint64_t most)
 {
     const size_t n = m->n_tets;
     for (uint32_t t = 0; t < n && m->points.n < most; ++t)
-        if (iccp_tet_alive(m, t) && square_sine_of(m, t) < flat)
+        if (iccp_tet_alive(m, t) && (first || iccp_tet_touched(m, t)) &&
+            iccp_quality_of(m, t) < flat)
             split_tet(m, t);
 }

@@ -49,6 +49,7 @@ typedef struct iccp_tets {
     uint64_t random;
     uint32_t attempt; /* number of the present order of insertion, from 0 */
     iccp_metric metric;
+    bool by_angle;   /* quality is the square of the least sine of the dihedral angles */
     uint32_t hint;   /* where a search begins */
     iccp_pairs kept; /* edges that must stay: the pieces of lines */
     bool no_memory;  /* an allocation has failed at some time, whatever came of it */
