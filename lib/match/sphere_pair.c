@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
+#include "base/threads.h"
 #include "match/outline/landmarks.h"
 #include "match/sphere/drawn_finder.h"
 #include "match/sphere/equal_surfaces.h"
@@ -126,32 +127,38 @@ static icc_status relax(iccp_body bodies[2], const iccp_env *env, icc_error *err
     return status;
 }
 
+/* Draws one of the two surfaces, whose directions are allocated. */
+static icc_status draw_one(void *argument, size_t side, const iccp_env *env, icc_error *err)
+{
+    const iccp_body *const bodies = argument, *const b = &bodies[side];
+    const icc_status status =
+        iccp_sphere_draw(b->directions, b->m.n_vertices, b->x, b->m.n_faces, b->m.origin, env, err);
+    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, (int32_t)side + 1);
+}
+
 /* Draws both surfaces. Equal ones are drawn in the same way; `partner` has the vertex that
- * corresponds to each vertex of the first. Others are drawn separately and then moved on each
+ * corresponds to each vertex of the first. Others are drawn side by side and then moved on each
  * other. */
 static icc_status draw(iccp_body bodies[2], const uint32_t *partner, const iccp_env *env,
                        icc_error *err)
 {
-    icc_status status = ICC_OK;
-    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
+    for (int side = 0; side < 2; ++side) {
         iccp_body *const b = &bodies[side];
         b->directions = iccp_alloc_zero(&env->memory, b->m.n_vertices, 3 * sizeof *b->directions);
         if (b->directions == NULL)
             return iccp_fail_memory(err);
-        if (side == 1 && partner != NULL) {
-            for (size_t v = 0; v < bodies[0].m.n_vertices; ++v)
-                if (bodies[0].m.degree[v] > 0)
-                    memcpy(b->directions + 3 * (size_t)partner[v], bodies[0].directions + 3 * v,
-                           3 * sizeof(double));
-            return ICC_OK;
-        }
-        const iccp_env part = iccp_part(env, NULL, 0.25 * side, 0.25 * side + 0.25);
-        status = iccp_sphere_draw(b->directions, b->m.n_vertices, b->x, b->m.n_faces, b->m.origin,
-                                  &part, err);
-        if (status != ICC_OK)
-            return iccp_fail_side(err, status, side + 1);
     }
-    const iccp_env turning = iccp_part(env, NULL, 0.5, 0.7), last = iccp_part(env, NULL, 0.7, 1);
+    const iccp_env drawing = iccp_part(env, NULL, 0, 0.5), turning = iccp_part(env, NULL, 0.5, 0.7),
+                   last = iccp_part(env, NULL, 0.7, 1);
+    icc_status status = iccp_side_by_side(&drawing, partner == NULL ? 2 : 1, draw_one, bodies, err);
+    if (status != ICC_OK)
+        return status;
+    for (size_t v = 0; partner != NULL && v < bodies[0].m.n_vertices; ++v)
+        if (bodies[0].m.degree[v] > 0)
+            memcpy(bodies[1].directions + 3 * (size_t)partner[v], bodies[0].directions + 3 * v,
+                   3 * sizeof(double));
+    if (partner != NULL)
+        return ICC_OK;
     status = iccp_explain(
         err, iccp_rotation_find(bodies[0].directions, bodies[1].directions,
                                 (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},

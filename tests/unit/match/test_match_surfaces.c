@@ -429,6 +429,26 @@ START_TEST(every_vertex_may_be_a_landmark)
 }
 END_TEST
 
+/* Both surfaces are drawn side by side, and the bits do not tell. */
+START_TEST(threads_change_nothing)
+{
+    static const double axes[3] = {1, .7, .5}, others[3] = {2.1, 1.5, 1.2};
+    static uint8_t bytes[2][1 << 18];
+    size_t n[2];
+    ellipsoid(&one, 2, axes, 0);
+    ellipsoid(&two, 2, others, .4);
+    for (int k = 0; k < 2; ++k) {
+        const icc_env env = {.size = sizeof env, .threads = 1 + 2 * k};
+        icc_match *match;
+        ck_assert_int_eq(match_both(&match, 0, &env, NULL), ICC_OK);
+        ck_assert_int_eq(icc_match_save(match, sizeof bytes[k], bytes[k], &n[k]), ICC_OK);
+        icc_match_free(match);
+    }
+    ck_assert_uint_eq(n[0], n[1]);
+    ck_assert_mem_eq(bytes[0], bytes[1], n[0]);
+}
+END_TEST
+
 static icc_status match_once(const icc_env *env, icc_error *err, void *argument)
 {
     icc_match *match = NULL;
@@ -486,6 +506,7 @@ int main(void)
     tcase_add_test(tests, every_vertex_may_be_a_landmark);
     tcase_add_test(tests, what_cannot_be_matched_is_refused);
     tcase_add_test(tests, landmarks_without_room_are_named);
+    tcase_add_test(tests, threads_change_nothing);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
