@@ -6,10 +6,7 @@
 
 #include <math.h>
 
-enum {
-    LEAF = ICCP_FACET_LEAF,
-    DEEP = 64 /* longer than any path */
-};
+enum { LEAF = ICCP_FACET_LEAF };
 
 static ICCP_INLINE double box_distance2(size_t dim, const double *box, const double *p)
 {
@@ -76,7 +73,7 @@ static ICCP_INLINE void search(const iccp_facet_tree *tree, size_t dim, const ic
     struct {
         size_t node;
         double distance2;
-    } stack[DEEP];
+    } stack[ICCP_FACET_LEVELS];
     size_t depth = 0, node = 1;
     for (;;) {
         while (node < tree->n_leaves) {

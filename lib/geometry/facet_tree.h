@@ -9,7 +9,8 @@
 
 #include <stdbool.h>
 
-enum { ICCP_FACET_LEAF = 4 };
+/* Facets in a leaf, and a number of levels that no tree has. */
+enum { ICCP_FACET_LEAF = 4, ICCP_FACET_LEVELS = 64 };
 
 /* A complete binary tree stored as a heap, like geometry/boxtree.h for polygons. Node 1 is the
  * root. Leaf n_leaves + j holds places 4 j to 4 j + 3, and order[] tells which facet is at each

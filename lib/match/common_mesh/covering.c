@@ -22,8 +22,8 @@ bool iccp_covering_create(iccp_covering *c, const iccp_half_edges *given, const 
     for (size_t f = 0; f < coarse->n; ++f)
         c->first[f] = ICCP_NO_EDGE;
     for (uint32_t i = 0; i < n_points; ++i) {
-        double bary[3], off2;
-        const uint32_t f = iccp_facet_tree_nearest(coarse, points + 3 * (size_t)i, bary, &off2);
+        double off2;
+        const uint32_t f = iccp_triangle_near(coarse, points + 3 * (size_t)i, -1, HUGE_VAL, &off2);
         c->next[i] = c->first[f];
         c->first[f] = i;
     }
@@ -37,65 +37,30 @@ void iccp_covering_free(iccp_covering *c, const iccp_memory *memory)
     iccp_free(memory, c->next);
 }
 
-/* The squared distance of a point from a triangle. C. Ericson, Real-Time Collision Detection, 2005,
- * section 5.1.5: signs of products tell which corner, side or face is nearest. */
 static double distance2(const iccp_corners *t, const double *p)
 {
-    double ab[3], ac[3], at[3][3], d[3][2];
-    for (int k = 0; k < 3; ++k) {
-        ab[k] = t->at[1][k] - t->at[0][k];
-        ac[k] = t->at[2][k] - t->at[0][k];
-    }
-    for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k)
-            at[i][k] = p[k] - t->at[i][k];
-        d[i][0] = iccp_vec_dot(3, ab, at[i]);
-        d[i][1] = iccp_vec_dot(3, ac, at[i]);
-    }
-    double v = 0, w = 0;
-    const double va = d[1][0] * d[2][1] - d[2][0] * d[1][1];
-    const double vb = d[2][0] * d[0][1] - d[0][0] * d[2][1];
-    const double vc = d[0][0] * d[1][1] - d[1][0] * d[0][1];
-    const double from_b = d[1][1] - d[1][0], from_c = d[2][0] - d[2][1];
-    if (d[0][0] <= 0 && d[0][1] <= 0)
-        v = w = 0;
-    else if (d[1][0] >= 0 && from_b <= 0)
-        v = 1;
-    else if (d[2][1] >= 0 && from_c <= 0)
-        w = 1;
-    else if (vc <= 0 && d[0][0] >= 0 && d[1][0] <= 0)
-        v = d[0][0] / (d[0][0] - d[1][0]);
-    else if (vb <= 0 && d[0][1] >= 0 && d[2][1] <= 0)
-        w = d[0][1] / (d[0][1] - d[2][1]);
-    else if (va <= 0 && from_b >= 0 && from_c >= 0)
-        v = 1 - (w = from_b / (from_b + from_c));
-    else {
-        v = vb / (va + vb + vc);
-        w = vc / (va + vb + vc);
-    }
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double off = at[0][k] - v * ab[k] - w * ac[k];
-        sum += off * off;
-    }
-    return sum;
+    return iccp_triangle_distance2(t->at[0], t->at[1], t->at[2], p);
 }
 
-/* The squared distance from the surface to a weighted mean of a triangle's corners. *faces_so
+/* Returns true if a weighted mean of a triangle's corners is close to the surface. *faces_so
  * becomes true if the triangle faces the same way as the surface there. */
-static double look_at(const iccp_covering *c, const iccp_corners *t, const double weight[3],
-                      const double normal[3], bool *faces_so)
+static bool look_at(const iccp_covering *c, const iccp_corners *t, const double weight[3],
+                    const double normal[3], bool *faces_so)
 {
     const double *right[3];
-    double p[3], bary[3], wanted[3], off2;
+    double p[3], wanted[3], off2;
     for (int k = 0; k < 3; ++k)
         p[k] = weight[0] * t->at[0][k] + weight[1] * t->at[1][k] + weight[2] * t->at[2][k];
-    iccp_facet_corners(&c->given, iccp_facet_tree_nearest(&c->given, p, bary, &off2), right);
+    const uint32_t f = iccp_triangle_near(&c->given, p, *faces_so ? c->most2 : -1, c->most2, &off2);
+    if (f == UINT32_MAX)
+        return false;
+    if (*faces_so)
+        return true;
+    iccp_facet_corners(&c->given, f, right);
     iccp_triangle_normal(wanted, right[0], right[1], right[2]);
-    *faces_so =
-        *faces_so || iccp_vec_dot(3, normal, wanted) >
-                         iccp_least_cosine * iccp_vec_norm(3, normal) * iccp_vec_norm(3, wanted);
-    return off2;
+    *faces_so = iccp_vec_dot(3, normal, wanted) >
+                iccp_least_cosine * iccp_vec_norm(3, normal) * iccp_vec_norm(3, wanted);
+    return true;
 }
 
 /* Returns true if a triangle fits: its middle and that of its first side are close to the surface,
@@ -109,7 +74,7 @@ static bool fits(const iccp_covering *c, const iccp_corners *t)
     double normal[3];
     iccp_triangle_normal(normal, t->at[0], t->at[1], t->at[2]);
     for (int i = 0; i < 2; ++i)
-        if (look_at(c, t, middles[i], normal, &faces_so) > c->most2)
+        if (!look_at(c, t, middles[i], normal, &faces_so))
             return false;
     for (int i = 2; i < 4 && !faces_so; ++i)
         (void)look_at(c, t, middles[i], normal, &faces_so);

@@ -2,7 +2,7 @@
 #ifndef ICCP_COVERING_H
 #define ICCP_COVERING_H
 
-#include "geometry/facet_tree.h"
+#include "geometry/triangle_near.h"
 #include "match/surface/half_edges.h"
 
 /* The corners of a triangle. */
