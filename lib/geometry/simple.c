@@ -15,7 +15,7 @@
  * The search walks down the tree from left to right. It takes along a list of the later nodes whose
  * boxes meet that of the present node. So pairs of edges come in the order of the earlier edge, and
  * the search ends soon after the first defect. Boxes are stored in cells of a grid, because then
- * one subtraction compares two boxes, and lists are filtered without a branch. */
+ * two subtractions compare two boxes, and lists are filtered without a branch. */
 #include "geometry/simple.h"
 
 #include "base/compiler.h"
@@ -26,10 +26,10 @@
 #include <string.h>
 
 enum {
-    FEW = 4,            /* edges of a rough leaf; the least of a chain, except the last */
-    GRAIN = 1024 * FEW, /* edges between progress reports */
-    HALVING = 8,        /* tests of cells that take as long as one test of parts of chains */
-    LAST_CELL = 32766   /* of the grid, along each axis */
+    FEW = 4,               /* edges of a rough leaf; the least of a chain, except the last */
+    GRAIN = 1024 * FEW,    /* edges between progress reports */
+    HALVING = 8,           /* tests of cells that take as long as one test of parts of chains */
+    LAST_CELL = 0x7ffffffe /* of the grid, along each axis */
 };
 
 /* Directions that all edges of a piece have: RIGHT or LEFT by x and then y, UP or DOWN by y and
@@ -37,14 +37,18 @@ enum {
  * right. */
 enum { RIGHT = 1, LEFT = 2, UP = 4, DOWN = 8, ANY = 15, CHAIN = 16 };
 
-/* A box in cells of a grid over the polygon: four numbers of 15 bits, with a bit 0 above each. From
- * the lowest bits on they are the cells of the left and lower sides, and LAST_CELL + 1 minus the
- * cells of the right and upper sides. So a larger box has smaller numbers. Boxes that meet have
- * cells that meet. */
-typedef uint64_t cells;
+/* A box in cells of a grid over the polygon. For each axis it has two numbers of 31 bits, with a
+ * bit 0 above each: the cell of the lower side, and LAST_CELL + 1 minus the cell of the upper
+ * side. So a larger box has smaller numbers. Boxes that meet have cells that meet. */
+typedef struct cells {
+    uint64_t of[2];
+} cells;
 
-/* The empty box, which meets none, and the bits above the numbers. */
-static const cells NO_CELLS = UINT64_C(0x7fff7fff7fff7fff), ABOVE = UINT64_C(0x8000800080008000);
+/* The bits above the numbers. */
+static const uint64_t ABOVE = UINT64_C(0x8000000080000000);
+
+/* The empty box, which meets none. */
+static const cells NO_CELLS = {{UINT64_C(0x7fffffff7fffffff), UINT64_C(0x7fffffff7fffffff)}};
 
 /* Edges first to end - 1: those of a leaf, or a part of a chain. */
 typedef struct piece {
@@ -171,26 +175,35 @@ static void make_grid(search *s)
 
 static ICCP_INLINE cells cell_of(const search *s, const double *p)
 {
-    const cells x = (cells)(int32_t)((p[0] - s->lower[0]) * s->per_unit[0]);
-    const cells y = (cells)(int32_t)((p[1] - s->lower[1]) * s->per_unit[1]);
-    return x | y << 16 | (LAST_CELL + 1 - x) << 32 | (LAST_CELL + 1 - y) << 48;
+    cells result;
+    for (int k = 0; k < 2; ++k) {
+        const uint64_t x = (uint64_t)(int64_t)((p[k] - s->lower[k]) * s->per_unit[k]);
+        result.of[k] = x | ((uint64_t)LAST_CELL + 1 - x) << 32;
+    }
+    return result;
 }
 
 /* Returns the smallest box around two boxes: the smaller one of each two numbers. */
 static ICCP_INLINE cells hull(cells a, cells b)
 {
-    const cells at_least = ((a | ABOVE) - b) & ABOVE;
-    const cells mask = at_least - (at_least >> 15);
-    return (b & mask) | (a & ~mask);
+    for (int k = 0; k < 2; ++k) {
+        const uint64_t at_least = ((a.of[k] | ABOVE) - b.of[k]) & ABOVE;
+        const uint64_t mask = at_least - (at_least >> 31);
+        a.of[k] = (b.of[k] & mask) | (a.of[k] & ~mask);
+    }
+    return a;
 }
 
-/* Returns 1 if two boxes meet, else 0. The subtraction sets the right and upper sides of a against
- * the left and lower sides of b, and the reverse. It borrows the bit above a number where they are
- * apart. */
+/* Returns 1 if two boxes meet, else 0. The subtraction sets the upper side of a against the lower
+ * side of b, and the reverse. It borrows the bit above a number where they are apart. */
 static ICCP_INLINE size_t meet(cells a, cells b)
 {
-    const cells opposite = NO_CELLS - a;
-    return (((opposite << 32 | opposite >> 32 | ABOVE) - b) & ABOVE) == ABOVE;
+    uint64_t kept = ABOVE;
+    for (int k = 0; k < 2; ++k) {
+        const uint64_t opposite = NO_CELLS.of[k] - a.of[k];
+        kept &= (opposite << 32 | opposite >> 32 | ABOVE) - b.of[k];
+    }
+    return kept == ABOVE;
 }
 
 /* Fills in the boxes of a leaf's edges, or of the leaf if it is a chain. Returns their hull. */
