@@ -79,8 +79,8 @@ static icc_domain *body_of(double by)
     return domain;
 }
 
-/* Line and point go where they should, their vertices exactly, and the void's inside has no image. The
- * mesh has the region's facets, so the region's inside goes into the region. */
+/* Line and point go where they should, their vertices exactly, and the void's inside has no image.
+ * The mesh has the region's facets, so the region's inside goes into the region. */
 static void check_features(const icc_map *map, double by)
 {
     static const double LINE[9] = {-0.2, -0.4, 0.1, 0, -0.45, 0, 0.2, -0.4, -0.1};
