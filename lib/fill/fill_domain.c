@@ -224,7 +224,7 @@ static icc_status make(iccp_tets *m, iccp_constraints *s, const icc_domain *surf
     m->points.n_dyadic = 0; /* all are doubles now */
     m->metric.on = false;
     if (status == ICC_OK)
-        status = iccp_tets_clean_up(m, options->for_map, &stage[CLEAN_UP], err);
+        status = iccp_tets_clean_up(m, &stage[CLEAN_UP], err);
     const bool refine = options->ratio < HUGE_VAL;
     const uint64_t n = m->points.n;
     const uint64_t most =

@@ -146,21 +146,13 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p)
     return true;
 }
 
-static bool has_inner_point(const iccp_tets *m, uint32_t t)
-{
-    const uint32_t *const v = m->tet[t].v;
-    const size_t n = m->points.n_fixed;
-    return v[0] >= n || v[1] >= n || v[2] >= n || v[3] >= n;
-}
-
 /* A try that failed in the last round is repeated only where something has changed since, because
  * it would fail again. */
-static void flip_bad(iccp_tets *m, bool everywhere)
+static void flip_all(iccp_tets *m)
 {
     const size_t n = m->n_tets;
     for (uint32_t t = 0; t < n; ++t)
-        if (iccp_tet_alive(m, t) && (everywhere || has_inner_point(m, t)) &&
-            iccp_tet_touched(m, t) && !is_good(m, t))
+        if (iccp_tet_alive(m, t) && iccp_tet_touched(m, t) && !is_good(m, t))
             iccp_improve_tet(m, t);
 }
 
@@ -176,7 +168,7 @@ static uint32_t stamp_bad(iccp_tets *m)
     return stamp;
 }
 
-icc_status iccp_tets_clean_up(iccp_tets *m, bool everywhere, const iccp_env *env, icc_error *err)
+icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err)
 {
     enum { ROUNDS = 4 };
     const double enough = 1e-4; /* worst quality that may remain */
@@ -190,7 +182,7 @@ icc_status iccp_tets_clean_up(iccp_tets *m, bool everywhere, const iccp_env *env
             if (m->tet_of[p] != ICCP_NO_TET && iccp_point_touched(m, p) &&
                 !iccp_contract_best(m, p, enough))
                 iccp_smooth_point(m, p);
-        flip_bad(m, everywhere);
+        flip_all(m);
     }
     return ICC_OK;
 }
@@ -208,7 +200,7 @@ icc_status iccp_tets_improve(iccp_tets *m, bool by_angle, uint64_t most, const i
         if (status != ICC_OK)
             return status;
         ++m->round;
-        flip_bad(m, true);
+        flip_all(m);
         if (by_angle && round > 0)
             iccp_split_slivers(m, round == 1, most);
         const uint32_t stamp = stamp_bad(m);

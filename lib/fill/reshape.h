@@ -12,9 +12,9 @@ bool iccp_improve_tet(iccp_tets *m, uint32_t t);
 bool iccp_smooth_point(iccp_tets *m, uint32_t p);
 
 /* Contracts and smooths the inner points. The earlier stages put them where they were necessary,
- * not where they give a good shape. Flips tetrahedra without inner points only `everywhere`:
- * refinement replaces most of them anyway. */
-icc_status iccp_tets_clean_up(iccp_tets *m, bool everywhere, const iccp_env *env, icc_error *err);
+ * not where they give a good shape. Flips all bad tetrahedra: refinement would go on and on round
+ * flat ones. */
+icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err);
 
 /* Makes some rounds of flips and smoothing. With `by_angle`, tetrahedra are better if their least
  * dihedral angle has the larger sine, and slivers are split as long as there are fewer than `most`

@@ -386,6 +386,18 @@ START_TEST(balls_are_refined)
 }
 END_TEST
 
+/* Vertices in circles have many flat Delaunay tetrahedra. Few inner points suffice if these go
+ * first. */
+START_TEST(flat_tetrahedra_go_before_refinement)
+{
+    surface_tube(&shape, 48, 48, 0.6, tube_circle);
+    icc_domain *filled = fill(&shape, NULL);
+    ck_assert_double_gt(least_sine_of(filled), sin(0.05));
+    ck_assert_uint_lt(info_of_domain(filled).n_mesh_simplices, 8 * shape.n_vertices);
+    icc_domain_free(filled);
+}
+END_TEST
+
 static icc_status fill_once(const icc_env *env, icc_error *err, void *argument)
 {
     icc_domain *filled;
@@ -490,6 +502,7 @@ int main(void)
     tcase_add_test(tests, arguments_are_checked);
     tcase_add_test(tests, few_points_suffice);
     tcase_add_test(tests, balls_are_refined);
+    tcase_add_test(tests, flat_tetrahedra_go_before_refinement);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
