@@ -41,7 +41,8 @@ class Transform:
                 Dask computes later stays lazy. Or the first coordinates, and the others in `axes`: ``m(x, y)`` returns
                 the new x and y, as the transformers of pyproj do. Or a geometry of shapely, whose vertices move. Or
                 GeoJSON (a dict, or anything with ``__geo_interface__``), which comes back as a dict
-            options: status, progress and threads, as for `apply`
+            options: status, progress and threads, as for `apply`. ``m(x, y, status=True)`` returns the new x and y as
+                a pair, and the states of the points
 
         Raises:
             OutsideError: for a geometry that lies partly outside. Points get NaN instead
@@ -175,9 +176,12 @@ def _by_axis(mapping: Transform, axes: Tuple[Any, ...], options: Any) -> Tuple[A
     if dim == 2 and not options and all(type(axis) is float for axis in axes):
         return (*mapping._one(*axes[:2]), *axes[2:])
     arrays = np.broadcast_arrays(*(np.asarray(axis) for axis in axes[:dim]))
-    images = mapping.apply(np.stack(arrays, axis=-1).reshape(-1, dim), **options).reshape(*arrays[0].shape, dim)
-    moved = np.moveaxis(images, -1, 0)
-    return (*(moved.tolist() if moved.ndim == 1 else moved), *axes[dim:])
+    shape = arrays[0].shape
+    images = mapping.apply(np.stack(arrays, axis=-1).reshape(-1, dim), **options)
+    images, states = images if options.get("status") else (images, None)
+    moved = np.moveaxis(images.reshape(*shape, dim), -1, 0)
+    result = (*(moved.tolist() if moved.ndim == 1 else moved), *axes[dim:])
+    return result if states is None else (result, states.reshape(shape)[()])
 
 
 def _move(mapping: Transform, coordinates: Floats) -> Floats:

@@ -34,6 +34,9 @@ def test_axes(slope):
     assert np.array_equal(x, wanted[:, 0]) and z == (7, 8, 9)
     assert slope(5.0, 5.0) == tuple(wanted[0]) == slope(5, 5) and type(slope(5, 5)[0]) is float
     assert np.isnan(slope(50.0, 5.0)).all()
+    (x, y), status = slope([5, 50], 5.0, status=True)
+    assert list(status) == [0, libicc.Error.OUTSIDE] and (x[0], y[0]) == slope(5.0, 5.0) and np.isnan(x[1])
+    assert slope(5.0, 5.0, status=True) == (slope(5.0, 5.0), 0)
     x, y = slope(np.array([[1.0], [2.0]]), 3.0)
     assert x.shape == (2, 1) and np.array_equal(y[:, 0], slope([[1, 3], [2, 3]])[:, 1])
     cube = libicc.Map((CUBE, QUADS), (2 * CUBE, QUADS))
