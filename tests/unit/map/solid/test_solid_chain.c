@@ -6,6 +6,7 @@
 #include "../../../random.h"
 #include "../../../suite.h"
 #include "../../../surfaces.h"
+#include "fill/fill_domain.h"
 #include "geometry/simplices.h"
 #include "map/kind/kind.h"
 #include "map/solid/feature_motion.h"
@@ -142,10 +143,13 @@ static icc_status run_chain(icc_domain *const pair[2], size_t *n_left, const icc
     return status;
 }
 
+/* A body with the mesh that a map begins with. */
 static icc_domain *filled(icc_domain *solid)
 {
     icc_domain *domain;
-    ck_assert_int_eq(icc_domain_fill(&domain, solid, NULL, NULL, NULL), ICC_OK);
+    iccp_env env;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_domain_fill_for_map(&domain, solid, &env, NULL), ICC_OK);
     icc_domain_free(solid);
     return domain;
 }
