@@ -26,10 +26,6 @@ static const double thin_sine = 0.12;
  * again. */
 static const double later = 1.2;
 
-/* Changes may raise the map's mean energy by this factor. Then no change may raise the energy any
- * more, as in a map from a spiky ball to a round one. */
-static const double most_rise = 1.02;
-
 typedef struct optimisation {
     iccp_patch_state s;
     iccp_heap heap; /* vertices by the cost of their cheapest collapse, or less */
@@ -236,20 +232,21 @@ static double area_of(const iccp_common_surface *c, int side)
     return area;
 }
 
-/* Sums up the energies, weighted by the areas on both sides, and the areas. */
-static void sum_up(iccp_patch_state *s, const iccp_common_surface *c)
+/* The mean energy, weighted by the areas on both sides. */
+static double energy_of(const iccp_common_surface *c, double scale)
 {
-    s->sum[0] = s->sum[1] = 0;
+    double sum[2] = {0, 0};
     for (size_t f = 0; f < c->n_faces; ++f) {
         iccp_corners on[2];
         for (int side = 0; side < 2; ++side)
             for (int i = 0; i < 3; ++i)
                 on[side].at[i] = c->x[side] + 3 * (size_t)c->faces[3 * f + (size_t)i];
-        iccp_patch_add_energy(s->sum, &on[0], &on[1], s->scale);
+        iccp_patch_add_energy(sum, &on[0], &on[1], scale);
     }
+    return sum[0] / sum[1];
 }
 
-static icc_status optimise(optimisation *t, iccp_common_surface *c, uint32_t *became,
+static icc_status optimise(optimisation *t, iccp_common_surface *c, uint32_t *became, double *rise,
                            const uint32_t *left, const iccp_half_edges *const given[2],
                            const double *const x[2], const double *off, const iccp_env *env)
 {
@@ -269,8 +266,7 @@ static icc_status optimise(optimisation *t, iccp_common_surface *c, uint32_t *be
                 s->at[side][left[v]] = v;
     }
     s->scale = sqrt(area_of(c, 0) / area_of(c, 1));
-    sum_up(s, c);
-    s->most_mean = most_rise * s->sum[0] / s->sum[1];
+    const double before = energy_of(c, s->scale);
     const icc_status status = has_memory ? run(t, env) : ICC_ERR_MEMORY;
     if (status != ICC_OK)
         return status;
@@ -278,21 +274,24 @@ static icc_status optimise(optimisation *t, iccp_common_surface *c, uint32_t *be
         for (uint32_t v = 0; v < c->n_vertices; ++v)
             c->origin[side][v] = s->whole->origin[side][s->at[side][v]];
     iccp_common_surface_compact(c, &s->m, became);
+    *rise = energy_of(c, s->scale) / before;
     return status;
 }
 
-icc_status iccp_optimise_shape(iccp_common_surface *common, uint32_t *became,
-                               const iccp_common_surface *whole, const uint32_t *left,
-                               const iccp_half_edges *const given[2], const double *const x[2],
-                               const iccp_simplify_limits *limits, const iccp_env *env)
+icc_status iccp_optimise_shape(iccp_common_surface *common, uint32_t *became, double *rise,
+                               iccp_patch_caution caution, const iccp_common_surface *whole,
+                               const uint32_t *left, const iccp_half_edges *const given[2],
+                               const double *const x[2], const iccp_simplify_limits *limits,
+                               const iccp_env *env)
 {
-    optimisation t = {.s = {.whole = whole, .keep = limits->keep, .cells = limits->cells}};
+    optimisation t = {
+        .s = {.whole = whole, .keep = limits->keep, .cells = limits->cells, .caution = caution}};
     icc_status status = iccp_half_edges_create(&t.s.m, common->n_vertices, common->n_faces,
                                                common->faces, env, NULL);
     for (int side = 0; side < 2; ++side)
         t.s.edge2[side] = limits->edge[side] * limits->edge[side];
     if (status == ICC_OK)
-        status = optimise(&t, common, became, left, given, x, limits->off, env);
+        status = optimise(&t, common, became, rise, left, given, x, limits->off, env);
     for (int side = 0; side < 2; ++side) {
         iccp_covering_free(&t.s.covering[side], &env->memory);
         iccp_clearance_free(&t.s.clearance[side], &env->memory);

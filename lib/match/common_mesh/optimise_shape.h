@@ -13,11 +13,13 @@
  * triangles and sides from the given surfaces. No triangles meet, exactly, if none did before.
  * limits->keep is by vertex of `common`, and limits->cells are those of `whole`.
  *
- * `became` and errors are as for iccp_simplify(). common->within is lost. The map's mean energy may
- * rise by 2 %. O(n log n) for n vertices of `whole` that are spread evenly over the result. */
-icc_status iccp_optimise_shape(iccp_common_surface *common, uint32_t *became,
-                               const iccp_common_surface *whole, const uint32_t *left,
-                               const iccp_half_edges *const given[2], const double *const x[2],
-                               const iccp_simplify_limits *limits, const iccp_env *env);
+ * `became` and errors are as for iccp_simplify(). common->within is lost. *rise is the factor by
+ * which the map's mean energy grew. With ICCP_PATCH_CALM, no change raises it. O(n log n) for n
+ * vertices of `whole` that are spread evenly over the result. */
+icc_status iccp_optimise_shape(iccp_common_surface *common, uint32_t *became, double *rise,
+                               iccp_patch_caution caution, const iccp_common_surface *whole,
+                               const uint32_t *left, const iccp_half_edges *const given[2],
+                               const double *const x[2], const iccp_simplify_limits *limits,
+                               const iccp_env *env);
 
 #endif

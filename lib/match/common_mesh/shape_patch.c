@@ -9,10 +9,10 @@
 
 #include <string.h>
 
-/* A change may raise the mean energy of its triangles by the factor `calm`. If the least angle has
- * a sine below `thin`, the factor grows in inverse proportion, up to `most_calm`. Without that, the
- * fox t08 keeps 10 % more vertices. A surface that keeps its vertices has so many thin triangles
- * that this would cost too much, without a gain. */
+/* A change may raise the mean energy by the factor `calm`. If the least angle has a sine below
+ * `thin`, the factor grows in inverse proportion, up to `most_calm`. Without that, the fox t08
+ * keeps 10 % more vertices. A surface that keeps its vertices has so many thin triangles that this
+ * would cost too much, without a gain. */
 static const double calm = 1.01, thin = 0.13, most_calm = 4, most_calm_if_kept = 1.2;
 
 /* At thin triangles, sides may become longer, too: their squared length may exceed the longest one
@@ -112,7 +112,7 @@ bool iccp_patch_after(const iccp_patch_state *s, const iccp_patch *p,
                       const iccp_patch_shape *before, double least, double most,
                       iccp_patch_shape *after)
 {
-    const double grown2 = before->least < thin ? longer2 : 1;
+    const double grown2 = s->caution < ICCP_PATCH_SHORT && before->least < thin ? longer2 : 1;
     bool is_good = look(s, p, &p->after, least, most, after);
     for (int side = 0; side < 2; ++side)
         is_good = is_good && after->longest2[side] <=
@@ -129,20 +129,14 @@ void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corn
     sum[1] += weight;
 }
 
-static void add_energies(double sum[2], const iccp_patch_state *s, const iccp_patch *p,
-                         const iccp_patch_triangles *t)
-{
-    for (uint32_t k = 0; k < t->n; ++k) {
-        const iccp_corners c = corners_of(s, p, t, 0, k), d = corners_of(s, p, t, 1, k);
-        iccp_patch_add_energy(sum, &c, &d, s->scale);
-    }
-}
-
 static double energy_of(const iccp_patch_state *s, const iccp_patch *p,
                         const iccp_patch_triangles *t)
 {
     double sum[2] = {0, 0};
-    add_energies(sum, s, p, t);
+    for (uint32_t k = 0; k < t->n; ++k) {
+        const iccp_corners c = corners_of(s, p, t, 0, k), d = corners_of(s, p, t, 1, k);
+        iccp_patch_add_energy(sum, &c, &d, s->scale);
+    }
     return sum[0] / sum[1];
 }
 
@@ -158,7 +152,8 @@ bool iccp_patch_allowed(iccp_patch_state *s, const iccp_patch *p, double least_b
 {
     const iccp_patch_triangles *const t = &p->after;
     const double most = s->cells != NULL ? most_calm_if_kept : most_calm;
-    const double more = s->is_calm ? 1 : iccp_max(calm, iccp_min(most, thin / least_before));
+    const double more =
+        s->caution == ICCP_PATCH_CALM ? 1 : iccp_max(calm, iccp_min(most, thin / least_before));
     bool is_allowed = energy_of(s, p, t) <= more * energy_of(s, p, &p->before);
     for (int side = 0; side < 2 && is_allowed; ++side) {
         iccp_corners c[ICCP_PATCH_TRIANGLES];
@@ -180,12 +175,6 @@ bool iccp_patch_allowed(iccp_patch_state *s, const iccp_patch *p, double least_b
 void iccp_patch_apply(iccp_patch_state *s, const iccp_patch *p)
 {
     const iccp_patch_triangles *const t = &p->after;
-    double before[2] = {0, 0}, after[2] = {0, 0};
-    add_energies(before, s, p, &p->before);
-    add_energies(after, s, p, t);
-    for (int i = 0; i < 2; ++i)
-        s->sum[i] += after[i] - before[i];
-    s->is_calm = s->is_calm || s->sum[0] > s->most_mean * s->sum[1];
     for (int side = 0; side < 2; ++side) {
         iccp_corners c[ICCP_PATCH_TRIANGLES];
         for (uint32_t k = 0; k < t->n; ++k)

@@ -9,19 +9,24 @@
 /* The most triangles in one change. */
 enum { ICCP_PATCH_TRIANGLES = ICCP_MERGED_NEIGHBOURS + 2 };
 
+/* Restrictions on changes. Each level adds one to those before it. */
+typedef enum iccp_patch_caution {
+    ICCP_PATCH_BOLD,
+    ICCP_PATCH_SHORT, /* makes no side longer than edge2 allows or than the sides before */
+    ICCP_PATCH_CALM   /* does not raise the stretch from one surface to the other */
+} iccp_patch_caution;
+
 /* Each vertex has the place of a vertex of the overlay, separately on each side. */
 typedef struct iccp_patch_state {
     iccp_half_edges m;
     const iccp_common_surface *whole; /* the overlay that everything was made from */
     const uint8_t *keep;              /* by vertex, a bit for each side: its place there is kept */
     const iccp_kept_cells *cells;     /* of the first surface; or NULL */
-    double edge2[2];  /* by side: longest squared side, unless a side was longer before */
-    double scale;     /* area of the second surface divided by that of the first */
-    double sum[2];    /* over all triangles: of areas times energies, and of areas */
-    double most_mean; /* once the mean energy is above this, no change may raise the energy */
-    bool is_calm;     /* that is so */
-    uint32_t *at[2];  /* by vertex: the vertex of `whole` whose place it has */
-    double *x[2];     /* by vertex: that place */
+    double edge2[2];            /* by side: longest squared side, unless a side was longer before */
+    double scale;               /* area of the second surface divided by that of the first */
+    iccp_patch_caution caution; /* the restrictions in force */
+    uint32_t *at[2];            /* by vertex: the vertex of `whole` whose place it has */
+    double *x[2];               /* by vertex: that place */
     iccp_covering covering[2];
     iccp_clearance clearance[2];
 } iccp_patch_state;
@@ -65,7 +70,7 @@ void iccp_patch_add_ring(const iccp_patch_state *s, iccp_patch *p, uint32_t v, u
 iccp_patch_shape iccp_patch_before(const iccp_patch_state *s, const iccp_patch *p);
 
 /* Returns false if an angle's sine is below `least`, the sum above `most`, or a side too long. If
- * triangles were thin, a side may become a little longer. */
+ * triangles were thin, a side may become a little longer, unless s->caution forbids it. */
 bool iccp_patch_after(const iccp_patch_state *s, const iccp_patch *p,
                       const iccp_patch_shape *before, double least, double most,
                       iccp_patch_shape *after);
@@ -76,11 +81,11 @@ void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corn
                            double scale);
 
 /* Returns true if both surfaces stay close enough, neither meets itself, and the stretch between
- * them does not rise. Unless s->is_calm, it may rise a little, and more if the least sine was
- * small. */
+ * them does not rise. It may rise a little if the least sine was small, unless s->caution forbids
+ * it. */
 bool iccp_patch_allowed(iccp_patch_state *s, const iccp_patch *p, double least_before);
 
-/* Moves the vertex and updates sums, coverings and clearances. The caller changes s->m. */
+/* Moves the vertex and updates coverings and clearances. The caller changes s->m. */
 void iccp_patch_apply(iccp_patch_state *s, const iccp_patch *p);
 
 #endif

@@ -3,7 +3,7 @@
 #include "match/common_mesh/simplify_apart.h"
 
 #include "base/minmax.h"
-#include "geometry/triangle_near.h"
+#include "geometry/facet_tree.h"
 #include "match/common_mesh/intersections.h"
 #include "match/common_mesh/optimise_shape.h"
 
@@ -16,6 +16,9 @@ enum { ROUNDS = 12 };
  * allows `farther` times the distance of the one before, up to the limit. */
 enum { MENDS = 7 };
 static const double farther = 10;
+
+/* Shape optimisation may raise the map's mean energy by this factor. */
+static const double most_rise = 1.03;
 
 typedef struct rounds {
     const iccp_common_surface *whole;
@@ -34,13 +37,11 @@ typedef struct rounds {
 
 /* ---- distances ---- */
 
-/* Returns true if a point is too far from the surface of a tree. A triangle that is as close as the
- * farthest point before, and close enough, settles it. */
+/* Returns true if a point is too far from the surface of a tree. */
 static bool is_far(rounds *r, int side, const iccp_facet_tree *tree, const double *p)
 {
-    const double enough = iccp_min(r->off, 1) * r->limits.off[side];
-    double distance2;
-    (void)iccp_triangle_near(tree, p, enough * enough, HUGE_VAL, &distance2);
+    double bary[3], distance2;
+    (void)iccp_facet_tree_nearest(tree, p, bary, &distance2);
     const double share = sqrt(distance2) / r->limits.off[side];
     r->off = iccp_max(r->off, share);
     return share > 1;
@@ -162,7 +163,8 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
     return ICC_OK;
 }
 
-/* Optimises the shape of the result. */
+/* Optimises the shape of the result. If the energy rises too much, it starts again with more
+ * caution, as for t08 without landmarks. If that does not help, the result stays as it was. */
 static icc_status optimise(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
 {
@@ -175,15 +177,19 @@ static icc_status optimise(rounds *r, iccp_common_surface *c, const uint8_t *kee
     for (size_t v = 0; v < r->whole->n_vertices && keep != NULL && status == ICC_OK; ++v)
         if (keep[v] != 0)
             stays[r->became[v]] = keep[v];
-    iccp_common_surface fine = {0};
-    if (status == ICC_OK)
+    double rise = HUGE_VAL;
+    for (iccp_patch_caution k = ICCP_PATCH_BOLD;
+         k <= ICCP_PATCH_CALM && rise > most_rise && status == ICC_OK; ++k) {
+        const iccp_env part = iccp_round(env, k, 1);
+        iccp_common_surface fine;
         status = iccp_common_surface_copy(&fine, c, memory);
-    if (status == ICC_OK)
-        status =
-            iccp_optimise_shape(&fine, became, r->whole, r->became, r->given, r->x, &limits, env);
-    if (status == ICC_OK)
-        status = take_if_near(r, c, &fine, memory);
-    iccp_common_surface_free(&fine, memory);
+        if (status == ICC_OK)
+            status = iccp_optimise_shape(&fine, became, &rise, k, r->whole, r->became, r->given,
+                                         r->x, &limits, &part);
+        if (status == ICC_OK && rise <= most_rise)
+            status = take_if_near(r, c, &fine, memory);
+        iccp_common_surface_free(&fine, memory);
+    }
     iccp_free(memory, stays);
     iccp_free(memory, became);
     return status;

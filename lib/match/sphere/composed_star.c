@@ -271,7 +271,7 @@ static double middle(double q[2], const double (*corner)[3], size_t n)
     return 0.5 * twice;
 }
 
-double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3], double most)
+double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3])
 {
     double sum = 0;
     star->weight = 0;
@@ -279,7 +279,7 @@ double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3],
         memcpy(star->face[i].corner[0], seen, 3 * sizeof *seen);
         find_planes(&star->face[i]);
     }
-    for (size_t k = 0; k < star->n_pieces && sum < most; ++k) {
+    for (size_t k = 0; k < star->n_pieces; ++k) {
         const iccp_star_piece *const piece = &star->piece[k];
         const iccp_seen_face *const a = &star->face[piece->sector], *const b =
                                                                         &star->other[piece->face];

@@ -67,10 +67,7 @@ void iccp_composed_star_see(double seen[3], const iccp_composed_star *star, cons
 /* Returns the energy if the vertex moves to `seen`, a place inside the ring as seen from the
  * present one. It is a sum over the common pieces of triangles: the area on both surfaces times E,
  * or E^1.5 if star->is_severe. Here E = (s^2 + t^2)(1 + 1 / (s t)^2), where s and t are the
- * singular values of the map from one surface to the other.
- *
- * If the energy is `most` or more, the sum may end early, with any value that is not below `most`,
- * and star->weight is unknown. */
-double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3], double most);
+ * singular values of the map from one surface to the other. */
+double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3]);
 
 #endif

@@ -20,8 +20,7 @@ static const double shorter = 0.4;
 /* A vertex may jump if its triangles have a mean energy above this, unless that is severe. */
 static const double bad = 20;
 
-/* Rounds end when one lowers the energy by less than this share. A vertex rests when its step
- * lowers its star's energy by less than this share. */
+/* Rounds end when one lowers the energy by less than this share. */
 static const double little = 0.003;
 
 /* Step of differences, as a share of the distance to the nearest edge of the ring. */
@@ -41,9 +40,7 @@ icc_status iccp_relaxation_create(iccp_relaxation *r, const iccp_drawn_surface s
         r->hint[s] = iccp_alloc(memory, m->n_vertices, sizeof *r->hint[s]);
         for (size_t v = 0; v < m->n_vertices && r->hint[s] != NULL; ++v)
             r->hint[s][v] = ICCP_NO_EDGE;
-        r->energy[s] = iccp_alloc_zero(memory, m->n_vertices, sizeof *r->energy[s]);
-        r->rests[s] = iccp_alloc(memory, m->n_vertices, sizeof *r->rests[s]);
-        has_memory &= r->hint[s] != NULL && r->energy[s] != NULL && r->rests[s] != NULL;
+        has_memory &= r->hint[s] != NULL;
         uint32_t v = 0;
         while (o->degree[v] == 0)
             ++v;
@@ -58,8 +55,6 @@ void iccp_relaxation_free(iccp_relaxation *r, const iccp_memory *memory)
     for (int s = 0; s < 2; ++s) {
         iccp_composed_star_free(&r->star[s]);
         iccp_free(memory, r->hint[s]);
-        iccp_free(memory, r->energy[s]);
-        iccp_free(memory, r->rests[s]);
     }
     iccp_free(memory, r->room);
 }
@@ -74,7 +69,7 @@ static bool holds(const iccp_composed_star *star, const double p[3])
 
 static double energy_at(iccp_composed_star *star, double x, double y)
 {
-    return iccp_composed_star_energy(star, (const double[]){x, y, 1}, HUGE_VAL);
+    return iccp_composed_star_energy(star, (const double[]){x, y, 1});
 }
 
 /* Computes the derivatives by differences. */
@@ -93,16 +88,15 @@ static double expand(double gradient[2], double hessian[3], iccp_composed_star *
     return here;
 }
 
-/* Returns the energy with the vertex at direction q if it is below `most`. HUGE_VAL if the star
- * does not hold q. */
-static double energy_towards(iccp_composed_star *star, double q[3], double most)
+/* The energy with the vertex at direction q, or HUGE_VAL if the star does not hold q. */
+static double energy_towards(iccp_composed_star *star, double q[3])
 {
     double seen[3];
     iccp_direction(q, q);
     if (!holds(star, q))
         return HUGE_VAL;
     iccp_composed_star_see(seen, star, q);
-    return iccp_composed_star_energy(star, seen, most);
+    return iccp_composed_star_energy(star, seen);
 }
 
 /* Looks for a better place in the whole room that the ring leaves a vertex: at its middle, and on
@@ -117,26 +111,13 @@ static double jump(iccp_relaxation *r, iccp_composed_star *star, double p[3], do
         const double share = i < n ? 0.5 : 0.85;
         for (int k = 0; k < 3; ++k)
             q[k] = i < 2 * n ? middle[k] + share * (r->room[i % n][k] - middle[k]) : middle[k];
-        const double now = energy_towards(star, q, least);
+        const double now = energy_towards(star, q);
         if (now < least) {
             least = now;
             memcpy(p, q, sizeof q);
         }
     }
     return least;
-}
-
-/* Wakes all vertices whose stars overlap the present star of a vertex. */
-static void wake_near(const iccp_relaxation *r, int s, uint32_t v)
-{
-    const iccp_half_edges *const m = r->side[s].m, *const other = r->side[1 - s].m;
-    const iccp_composed_star *const star = &r->star[s];
-    uint32_t h = m->out[v];
-    for (uint32_t k = 0; k < m->degree[v]; ++k, h = iccp_edge_turn(m, h))
-        r->rests[s][iccp_edge_end(m, h)] = 0;
-    for (size_t k = 0; k < star->n_other; ++k)
-        for (size_t i = 0; i < 3; ++i)
-            r->rests[1 - s][other->origin[3 * (size_t)star->list[k] + i]] = 0;
 }
 
 /* Moves one vertex. Adds its star's energy to *energy and its fall to *gain. A vertex stays if its
@@ -159,29 +140,24 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
     iccp_newton_step(step, gradient, hessian, star->farthest);
     step[0] *= longer;
     step[1] *= longer;
-    double least = here, weight = star->weight;
+    double least = here;
     for (int n = 0; n < TRIALS; ++n) {
         double q[3];
         for (int k = 0; k < 3; ++k)
             q[k] = star->p[k] + step[0] * star->axis[0][k] + step[1] * star->axis[1][k];
-        const double now = energy_towards(star, q, least);
+        const double now = energy_towards(star, q);
         if (now < least) {
             memcpy(p, q, sizeof q);
             least = now;
-            weight = star->weight;
             break;
         }
         step[0] *= shorter;
         step[1] *= shorter;
     }
-    if (least > (star->is_severe ? iccp_severely_bad : bad) * weight &&
+    if (least > (star->is_severe ? iccp_severely_bad : bad) * star->weight &&
         star->n <= ICCP_JUMP_NEIGHBOURS)
         least = jump(r, star, p, least);
     *gain += here - least;
-    r->energy[s][v] = least;
-    r->rests[s][v] = !(here - least > little * here);
-    if (r->rests[s][v] == 0)
-        wake_near(r, s, v);
     return ICC_OK;
 }
 
@@ -190,20 +166,15 @@ icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, double 
 {
     icc_status status = ICC_OK;
     *left = HUGE_VAL;
-    for (int s = 0; s < 2; ++s) {
+    for (int s = 0; s < 2; ++s)
         r->star[s].is_severe = is_severe;
-        memset(r->energy[s], 0, r->side[s].m->n_vertices * sizeof *r->energy[s]);
-        memset(r->rests[s], 0, r->side[s].m->n_vertices * sizeof *r->rests[s]);
-    }
     for (size_t round = 0; status == ICC_OK; ++round) {
         const iccp_env part = iccp_round(env, round, 4);
         double energy = 0, gain = 0;
         for (int s = 0; s < 2; ++s) {
             const iccp_half_edges *const m = r->side[s].m;
             for (uint32_t v = 0; v < m->n_vertices && status == ICC_OK; ++v) {
-                if (r->rests[s][v] != 0)
-                    energy += r->energy[s][v];
-                else if (m->degree[v] > 0 && !(r->is_fixed[s] != NULL && r->is_fixed[s][v] != 0))
+                if (m->degree[v] > 0 && !(r->is_fixed[s] != NULL && r->is_fixed[s][v] != 0))
                     status = move(r, longer, s, v, &energy, &gain);
                 if (v % 256 == 0 && status == ICC_OK)
                     status = iccp_progress(&part, "match", 0);

@@ -10,8 +10,6 @@ typedef struct iccp_relaxation {
     iccp_composed_star star[2]; /* of a vertex of one drawing on the other */
     uint32_t *hint[2]; /* by vertex: a face of the other drawing near it; or ICCP_NO_EDGE */
     uint32_t last[2];  /* a face of the other drawing near the vertex that was moved last */
-    double *energy[2]; /* by vertex: its star's energy after its last turn */
-    uint8_t *rests[2]; /* by vertex: it is not moved until something near it has moved */
     double (*room)[3];
 } iccp_relaxation;
 
@@ -27,11 +25,9 @@ void iccp_relaxation_free(iccp_relaxation *r, const iccp_memory *memory);
 #define ICCP_LONGER 1.5
 
 /* Moves the present vertices of both drawings that are not fixed, one by one. Steps are `longer`
- * times as long as Newton's. A vertex rests after a step that lowers its star's energy by less than
- * 0.3 %. It rests until a vertex near it, on either drawing, makes a step that lowers the energy by
- * more. The work ends with the first round that lowers the energy by less than 0.3 %. The energy is
- * that of match/sphere/composed_star.h and may be severe. *left becomes the energy of all stars of
- * both drawings, each as it was after its last step. Every face stays positive, exactly, and each
+ * times as long as Newton's. It ends with the first round that lowers the energy by less than
+ * 0.3 %. The energy is that of match/sphere/composed_star.h and may be severe. *left
+ * becomes the energy of all stars of both drawings. Every face stays positive, exactly, and each
  * vertex's neighbours turn once around it. The same on every machine. ICC_ERR_MEMORY,
  * ICC_ERR_CANCELLED without a text. */
 icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, double *left,

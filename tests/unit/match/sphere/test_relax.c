@@ -63,7 +63,7 @@ static double energy_of(const drawn *one, const drawn *other, bool is_severe, do
     for (uint32_t v = 0; v < a.m->n_vertices; ++v) {
         face = iccp_drawn_walk(b.m, b.directions, face, a.directions + 3 * (size_t)v);
         ck_assert_int_eq(iccp_composed_star_gather(&star, &a, v, &b, face), ICC_OK);
-        sum += iccp_composed_star_energy(&star, (const double[]){0, 0, 1}, HUGE_VAL);
+        sum += iccp_composed_star_energy(&star, (const double[]){0, 0, 1});
         *weight += star.weight;
     }
     iccp_composed_star_free(&star);
