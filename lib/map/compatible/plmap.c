@@ -279,8 +279,10 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
     const size_t m = map->n_vertices, n_triangles = map->corners.n_triangles;
     if (m + 1 > map->vertex_room || n_triangles + 2 > map->triangle_room) {
         const icc_status status = iccp_plmap_expect_cuts(map, m / 2 + 1);
-        if (status != ICC_OK)
+        if (status != ICC_OK) {
+            *done = false;
             return status;
+        }
     }
     *done = place_on_edge(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
                           map->corners.vertex[before]);
