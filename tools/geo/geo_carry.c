@@ -469,7 +469,8 @@ static bool carry_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);
     const geo_layer *l = &c->layer;
-    const double *known = l->node == NULL ? l->nodes + 2 * l->first[c->object] : NULL;
+    const bool is_known = l->node == NULL && l->nodes != NULL;
+    const double *known = is_known ? l->nodes + 2 * l->first[c->object] : NULL;
     if (!geo_shape_read(&c->read, o, c->text, known, c->wrong))
         return false;
     if (c->read.n == 0)
