@@ -271,18 +271,16 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
     double point[2], image[2];
     middle_of(iccp_plmap_point(map, after), iccp_plmap_point(map, before), point);
     middle_of(iccp_plmap_image(map, after), iccp_plmap_image(map, before), image);
-    *done = iccp_plmap_may_cut(map, corner) && can_cut(map, corner, point, image) &&
-            (twin == ICCP_NO_NEIGHBOUR || can_cut(map, twin, point, image));
-    if (!*done)
+    *done = false;
+    if (!iccp_plmap_may_cut(map, corner) || !can_cut(map, corner, point, image) ||
+        (twin != ICCP_NO_NEIGHBOUR && !can_cut(map, twin, point, image)))
         return ICC_OK;
     /* Half as much again, so that n cuts that nobody expected cost O(n). */
     const size_t m = map->n_vertices, n_triangles = map->corners.n_triangles;
     if (m + 1 > map->vertex_room || n_triangles + 2 > map->triangle_room) {
         const icc_status status = iccp_plmap_expect_cuts(map, m / 2 + 1);
-        if (status != ICC_OK) {
-            *done = false;
+        if (status != ICC_OK)
             return status;
-        }
     }
     *done = place_on_edge(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
                           map->corners.vertex[before]);
