@@ -69,6 +69,7 @@ quietly "$build/configure.log" cmake --preset "$preset" -DICC_BUILD_BENCHMARKS=$
 quietly "$build/build.log" cmake --build "$build" --parallel "$jobs" --target "$target"
 grep -A 4 'warning:' "$build/build.log" || true
 
+failures=
 # also NAME COMMAND... counts as one more test; exit code 77 means that it cannot run here, and says why.
 also() {
     name=$1
@@ -79,7 +80,12 @@ also() {
     case $result in
         0) passed=$((passed + 1)) ;;
         77) ;;
-        *) failed=$((failed + 1)) && echo "failed: $name" ;;
+        *)
+            failed=$((failed + 1))
+            failures="$failures
+failed: $name"
+            echo "failed: $name"
+            ;;
     esac
 }
 
@@ -106,6 +112,13 @@ counts=$(awk '/tests? passed, .* tests? failed out of/ { last = $NF - $4 " " $4 
 counts=${counts:-0 1}
 passed=${counts% *}
 failed=${counts#* }
+
+# What the failed tests of CTest printed, at most 100 lines of each: long output follows before the end of this script.
+printed_by_failed() {
+    awk '/^ *[0-9]+\/[0-9]+ Test +#/ { lines = /\*\*\*/ ? 100 : 0 }
+         /^ +Start +[0-9]+:/ || /tests? passed, .* tests? failed out of/ { lines = 0 }
+         lines-- > 0' "$build/ctest.log"
+}
 
 # Tests that CMake did not register for want of packages, and parts of tests that were skipped.
 left_out() {
@@ -157,5 +170,6 @@ if [ "$tier-$sanitized" = long-no ]; then
     also "thread sanitizer" env CC=clang sh tests/run.sh --long tsan
 fi
 [ ! -e "$build/overhead.txt" ] || cat "$build/overhead.txt"
-printf '%d passed, %d failed\n' "$passed" "$failed"
+[ "$status" -eq 0 ] || printed_by_failed
+printf '%s\n%d passed, %d failed\n' "$failures" "$passed" "$failed"
 [ "$status" -eq 0 ] && [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
