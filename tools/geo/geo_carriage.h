@@ -58,12 +58,27 @@ typedef struct carriage {
 /* The object of the current geometry. */
 geo_object *geo_current(const carriage *c);
 
+/* Says in c->wrong that the library stopped. Returns false. */
+bool geo_stop(carriage *c, icc_status status);
+
 /* Records that the current geometry is not carried unchanged. A feature has one entry. If its
  * geometries have two fates, the worse one is reported. */
 void geo_note_fault(carriage *c, size_t n_without, const char *fate);
 
 /* Records a fault and drops the geometry. Returns true. */
 bool geo_leave_out(carriage *c, size_t n_without);
+geo_writer geo_writer_of(carriage *c);
+
+/* Ends a geometry whose lines are refined, if it still `writes`, or else cuts it or leaves it out.
+ * False: see c->wrong. */
+bool geo_end(carriage *c, size_t n_without, bool whole, bool writes);
+
+/* geo_take.c */
+
+/* Makes the shape that is carried of the one that has been read. False: see c->wrong. */
+bool geo_take_shape(carriage *c);
+
+/* geo_lines.c */
 
 /* Adds an empty line to c->lines. */
 polyline *geo_add_line(carriage *c);
@@ -73,12 +88,34 @@ polyline *geo_add_line(carriage *c);
 vertex geo_vertex_of(const carriage *c, const geo_node *node);
 bool geo_has_gap(const polyline *line);
 
+/* Make lines of all points, which are lines without pieces, or of all paths. True: all of the
+ * geometry lies in the cage. */
+bool geo_take_points(carriage *c);
+bool geo_take_paths(carriage *c);
+
+/* Closes pieces along an edge of the cage, where the map is linear. */
+void geo_close_on_cage(carriage *c, polyline *line);
+
 /* Adds vertices to a line until its image is exact or accurate. False: see c->wrong. */
 bool geo_refine_line(carriage *c, polyline *line);
-geo_writer geo_writer_of(carriage *c);
+
+/* geo_wait.c */
+
+/* Lets the current geometry wait. False: see c->wrong. */
+bool geo_wait(carriage *c, size_t n_without, bool whole);
+
+/* Refines the lines of all geometries that wait, and writes these; geo_flush_before() keeps the
+ * current geometry. False: see c->wrong. */
+bool geo_flush(carriage *c);
+bool geo_flush_before(carriage *c);
+void geo_waits_free(carriage *c);
+
+/* geo_cut.c */
 
 /* Cuts the current geometry along the cage. False: see c->wrong. */
 bool geo_cut(carriage *c, size_t n_without);
+
+/* geo_bounds.c */
 
 /* Sets each bbox to the box of its object's contents. Goes from the last object to the first, so
  * that contents are known before their object. False: see c->wrong. */
