@@ -169,17 +169,16 @@ static void paint(const band *b, const iccp_scan *scan, runs *r)
                            pixel_at(b, r->run[k].row, r->run[k].begin));
 }
 
-/* Paints a pixel that lies in a thin triangle without samples. */
-static void paint_centre(const band *b, int32_t row, size_t column)
+/* Paints a pixel that lies in a thin triangle without samples: the sample at its centre. */
+static void paint_centre(const band *b, const iccp_run *run, size_t column)
 {
-    const icc_map *map = b->w->map;
-    double place[2] = {(double)column + 0.5, row + 0.5}, local[2], image[2];
-    iccp_frame_in(&map->target_domain->frame, 2, place, local);
-    if (iccp_mesh_map_point(iccp_plane_of(map), true, local, image, NULL) != ICC_OK)
-        return;
-    iccp_frame_out(&map->source_domain->frame, 2, image, place);
-    const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
-    iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, column));
+    const double k = (double)(column - run->begin);
+    iccp_line line = {run->line.u, run->line.v, 0, 0, 1};
+    if (k > 0) {
+        line.u += k * run->line.du;
+        line.v += k * run->line.dv;
+    }
+    iccp_sampler_paint(&b->w->source, &line, pixel_at(b, run->row, column));
 }
 
 /* Stores the means of the gathered samples in a run of pixels. */
@@ -192,7 +191,7 @@ static void store_run(const band *b, const iccp_run *run)
             ++n;
         iccp_sampler_store(&b->w->source, gathered, n, pixel_at(b, run->row, i));
         if (n == 0) {
-            paint_centre(b, run->row, i);
+            paint_centre(b, run, i);
             n = 1;
         }
     }
@@ -232,6 +231,8 @@ static icc_status paint_band(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+/* Only pixels close to the boundary need the map's point location, and most pictures have none. So
+ * the first of them makes it. */
 static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
                             const icc_picture *target, const iccp_env *env)
 {
@@ -241,16 +242,14 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
               .memory = &env->memory};
     iccp_sampler_init(&w.source, source);
     iccp_boundary_pixels boundary;
-    icc_status status = iccp_mesh_map_ready(iccp_plane_of(map), true);
-    if (status == ICC_OK)
-        status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
+    icc_status status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
     if (status != ICC_OK)
         return status;
     status = prepare(&w);
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_band, &w);
     if (status == ICC_OK)
-        iccp_boundary_pixels_decide(&boundary, map, &w.source, target);
+        status = iccp_boundary_pixels_decide(&boundary, map, &w.source, target);
     clear(&w);
     iccp_boundary_pixels_free(&boundary);
     return status;

@@ -6,6 +6,7 @@
 #include "../../../suite.h"
 
 #include <check.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -441,6 +442,27 @@ START_TEST(test_no_memory)
 }
 END_TEST
 
+/* Pixels away from the boundary need no search for points, which would take memory of the map's
+ * own, not even those in triangles too thin for a sample. */
+START_TEST(test_no_search)
+{
+    const double before[8] = {0, 0, 40, 0, 40, 40, 0, 40};
+    const double after[8] = {1.1, 2.3, 38.7, 0.2, 37.8, 39.9, 3.3, 36.9};
+    budget b = {LONG_MAX, 0};
+    const icc_env env = {
+        .size = sizeof env, .user = &b, .alloc = budget_alloc, .dealloc = budget_free};
+    icc_map *map;
+    ck_assert_int_eq(icc_map_create_polygons(&map, 4, before, after, &env, NULL), ICC_OK);
+    icc_picture from = make(40, 40, 4, 1, 1), to = make(40, 40, 4, 1, 1);
+    b.left = 0;
+    ck_assert_int_eq(icc_map_warp(map, &from, &to, NULL, NULL, NULL), ICC_OK);
+    icc_map_free(map);
+    ck_assert_int_eq(b.live, 0);
+    free(from.pixels);
+    free(to.pixels);
+}
+END_TEST
+
 static int32_t stop(void *user, const char *stage, double share)
 {
     (void)share;
@@ -533,6 +555,7 @@ int main(void)
     tcase_add_test(tcase, test_no_bleeding);
     tcase_add_test(tcase, test_threads);
     tcase_add_test(tcase, test_no_memory);
+    tcase_add_test(tcase, test_no_search);
     tcase_add_test(tcase, test_cancel);
     tcase_add_test(tcase, test_sizes);
     tcase_add_test(tcase, test_arguments);
