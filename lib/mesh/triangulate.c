@@ -8,7 +8,6 @@
 #include "mesh/delaunay.h"
 
 #include <assert.h>
-#include <string.h>
 
 /* Marks a triangle outside. */
 static const uint32_t OUTSIDE = UINT32_MAX;
@@ -21,21 +20,47 @@ static bool faces_wall(const iccp_trimesh *mesh, uint32_t corner)
     return a < mesh->n_points && b < mesh->n_points && iccp_is_wall(mesh, a, b);
 }
 
-/* Sets number[t] to OUTSIDE or to 0. It begins outside, with a ghost, and each wall leads from one
- * to the other. `stack` has room for every triangle. Returns ICC_ERR_TOPOLOGY if walls do not
- * separate inside from outside. */
+/* Returns a triangle with the ghost. */
+static uint32_t find_ghost(const iccp_trimesh *mesh)
+{
+    uint32_t corner = 0;
+    while (mesh->corners[corner].vertex != mesh->n_points)
+        ++corner;
+    return corner / 3;
+}
+
+/* Sets number[t], which is 0, to OUTSIDE where a triangle is reached from a ghost without crossing
+ * a wall. The rest is inside if the walls are one polygon. `stack` has room for every triangle. */
+static void mark_around(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
+{
+    const iccp_corner *const c = mesh->corners;
+    uint32_t n = 0;
+    stack[n++] = find_ghost(mesh);
+    number[stack[0]] = OUTSIDE;
+    while (n > 0) {
+        const uint32_t triangle = stack[--n];
+        for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
+            const uint32_t other = c[corner].twin / 3;
+            if (number[other] == OUTSIDE || faces_wall(mesh, corner))
+                continue;
+            number[other] = OUTSIDE;
+            stack[n++] = other;
+        }
+    }
+}
+
+/* Sets number[t] to OUTSIDE or to 0 if there are several polygons: each wall leads from outside to
+ * inside or back. Returns ICC_ERR_TOPOLOGY if walls do not separate the two. */
 static icc_status mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
 {
     const iccp_corner *const c = mesh->corners;
     const uint32_t unseen = OUTSIDE - 1;
     icc_status status = ICC_OK;
-    uint32_t seed = 0, n = 0;
+    uint32_t n = 0;
     for (uint32_t t = 0; t < mesh->n_triangles; ++t)
         number[t] = unseen;
-    while (c[seed].vertex != mesh->n_points)
-        ++seed;
-    stack[n++] = seed / 3;
-    number[seed / 3] = OUTSIDE;
+    stack[n++] = find_ghost(mesh);
+    number[stack[0]] = OUTSIDE;
     while (n > 0) {
         const uint32_t triangle = stack[--n];
         for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
@@ -101,7 +126,7 @@ static icc_status extract(const iccp_trimesh *mesh, uint32_t *triangles, uint32_
         status = iccp_fail_memory(err);
         goto done;
     }
-    (void)mark_outside(mesh, number, stack);
+    mark_around(mesh, number, stack);
     const uint32_t outsider = find_outsider(mesh, number);
     if (outsider < mesh->n_points) {
         status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, outsider,
