@@ -97,9 +97,11 @@ static double side(const double plane[3], const double p[3])
     return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2];
 }
 
-/* Keeps the part of a polygon on the positive side of a plane. */
-static size_t clip(double (*out)[3], const double (*in)[3], size_t n, const double plane[3])
+/* Keeps the part of a polygon on the positive side of a plane. *p becomes `out`, unless the whole
+ * polygon is kept. */
+static size_t clip(double (*out)[3], const double (**p)[3], size_t n, const double plane[3])
 {
+    const double(*const in)[3] = *p;
     double at[MOST_CORNERS];
     size_t n_out = 0, n_in = 0;
     for (size_t i = 0; i < n; ++i) {
@@ -108,10 +110,9 @@ static size_t clip(double (*out)[3], const double (*in)[3], size_t n, const doub
     }
     if (n_in == 0)
         return 0;
-    if (n_in == n) {
-        memcpy(out, in, n * sizeof *in);
+    if (n_in == n)
         return n;
-    }
+    *p = (const double(*)[3])out;
     for (size_t i = 0, before = n - 1; i < n; before = i++) {
         if ((at[i] > 0) != (at[before] > 0)) {
             const double s = at[before] / (at[before] - at[i]);
@@ -141,10 +142,13 @@ static bool add_piece(iccp_composed_star *star, uint32_t sector, uint32_t face)
         star->room_pieces = room;
     }
     iccp_star_piece *const piece = &star->piece[star->n_pieces];
+    const double(*p)[3] = (const double(*)[3])star->other[face].corner;
     piece->sector = sector;
     piece->face = face;
-    piece->n = (uint32_t)clip(piece->corner, (const double(*)[3])star->other[face].corner, 3,
-                              star->face[sector].plane[0]);
+    piece->is_known = false;
+    piece->n = (uint32_t)clip(piece->corner, &p, 3, star->face[sector].plane[0]);
+    if (piece->n == 3 && p != (const double(*)[3])piece->corner)
+        memcpy(piece->corner, p, 3 * sizeof *p);
     if (piece->n >= 3)
         ++star->n_pieces;
     return true;
@@ -271,7 +275,17 @@ static double middle(double q[2], const double (*corner)[3], size_t n)
     return 0.5 * twice;
 }
 
-double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3])
+static iccp_star_overlap measure_overlap(const iccp_seen_face *other, const double (*corner)[3],
+                                         size_t n)
+{
+    iccp_star_overlap o;
+    o.area = middle(o.middle, corner, n);
+    o.root = o.area > least_area ? metric(o.metric, other, o.middle) : 0;
+    return o;
+}
+
+/* Most pieces lie inside their sector, wherever the vertex moves. These are measured once. */
+double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3], double most)
 {
     double sum = 0;
     star->weight = 0;
@@ -280,23 +294,35 @@ double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3])
         find_planes(&star->face[i]);
     }
     for (size_t k = 0; k < star->n_pieces; ++k) {
-        const iccp_star_piece *const piece = &star->piece[k];
+        iccp_star_piece *const piece = &star->piece[k];
         const iccp_seen_face *const a = &star->face[piece->sector], *const b =
                                                                         &star->other[piece->face];
-        double work[2][MOST_CORNERS][3], q[2], g[3], h[3];
-        size_t n = clip(work[0], piece->corner, piece->n, a->plane[1]);
+        const double(*const whole)[3] = (const double(*)[3])piece->corner, (*p)[3] = whole;
+        double work[2][MOST_CORNERS][3], g[3];
+        size_t n = clip(work[0], &p, piece->n, a->plane[1]);
         if (n >= 3)
-            n = clip(work[1], (const double(*)[3])work[0], n, a->plane[2]);
+            n = clip(work[1], &p, n, a->plane[2]);
         if (n < 3)
             continue;
-        const double area = middle(q, (const double(*)[3])work[1], n);
-        if (!(area > least_area))
+        iccp_star_overlap o;
+        if (p == whole && piece->is_known) {
+            o = piece->whole;
+        } else {
+            o = measure_overlap(b, p, n);
+            if (p == whole) {
+                piece->whole = o;
+                piece->is_known = true;
+            }
+        }
+        if (!(o.area > least_area))
             continue;
-        const double u = metric(g, a, q), v = metric(h, b, q);
+        const double *const h = o.metric, u = metric(g, a, o.middle), v = o.root;
         const double e =
             (g[0] * h[2] - 2 * g[1] * h[1] + g[2] * h[0]) * (1 / (u * u) + 1 / (v * v));
-        star->weight += area * (u + v);
-        sum += area * (u + v) * e * (star->is_severe ? sqrt(e) : 1);
+        star->weight += o.area * (u + v);
+        sum += o.area * (u + v) * e * (star->is_severe ? sqrt(e) : 1);
+        if (!(sum < most))
+            return HUGE_VAL;
     }
     return sum;
 }

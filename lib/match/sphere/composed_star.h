@@ -23,11 +23,19 @@ typedef struct iccp_seen_face {
     double root;        /* the root of their determinant */
 } iccp_seen_face;
 
+/* What two faces have in common, and the metric of the other drawing's surface there. */
+typedef struct iccp_star_overlap {
+    double area, middle[2];
+    double metric[3], root; /* `root` of the metric's determinant */
+} iccp_star_overlap;
+
 /* The part of a face of the other drawing that lies inside the star's outer edge. */
 typedef struct iccp_star_piece {
     uint32_t sector, face; /* `sector` of the star; `face` is an index into `other` */
     uint32_t n;
     double corner[4][3];
+    bool is_known; /* `whole` is known */
+    iccp_star_overlap whole;
 } iccp_star_piece;
 
 typedef struct iccp_composed_star {
@@ -43,7 +51,7 @@ typedef struct iccp_composed_star {
     uint32_t *seen, stamp; /* by face of the other drawing: the stamp of the last visit */
     double radius;         /* the smallest distance from the vertex to the ring's edges */
     double farthest;       /* the greatest distance to the ring's corners */
-    double weight;         /* sum of the areas; known after the energy */
+    double weight;         /* sum of the areas; known after an energy below the limit */
     bool is_severe;        /* strong stretch counts more */
 } iccp_composed_star;
 
@@ -65,9 +73,10 @@ icc_status iccp_composed_star_gather(iccp_composed_star *star, const iccp_drawn_
 void iccp_composed_star_see(double seen[3], const iccp_composed_star *star, const double q[3]);
 
 /* Returns the energy if the vertex moves to `seen`, a place inside the ring as seen from the
- * present one. It is a sum over the common pieces of triangles: the area on both surfaces times E,
- * or E^1.5 if star->is_severe. Here E = (s^2 + t^2)(1 + 1 / (s t)^2), where s and t are the
- * singular values of the map from one surface to the other. */
-double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3]);
+ * present one. If it is `most` or more, returns HUGE_VAL. It is a sum over the common pieces of
+ * triangles: the area on both surfaces times E, or E^1.5 if star->is_severe. Here E = (s^2 + t^2)(1
+ * + 1 / (s t)^2), where s and t are the singular values of the map from one surface to the
+ * other. */
+double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3], double most);
 
 #endif

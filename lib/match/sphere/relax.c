@@ -69,7 +69,7 @@ static bool holds(const iccp_composed_star *star, const double p[3])
 
 static double energy_at(iccp_composed_star *star, double x, double y)
 {
-    return iccp_composed_star_energy(star, (const double[]){x, y, 1});
+    return iccp_composed_star_energy(star, (const double[]){x, y, 1}, HUGE_VAL);
 }
 
 /* Computes the derivatives by differences. */
@@ -88,15 +88,16 @@ static double expand(double gradient[2], double hessian[3], iccp_composed_star *
     return here;
 }
 
-/* The energy with the vertex at direction q, or HUGE_VAL if the star does not hold q. */
-static double energy_towards(iccp_composed_star *star, double q[3])
+/* The energy with the vertex at direction q; or HUGE_VAL if it is `most` or more, or if the star
+ * does not hold q. */
+static double energy_towards(iccp_composed_star *star, double q[3], double most)
 {
     double seen[3];
     iccp_direction(q, q);
     if (!holds(star, q))
         return HUGE_VAL;
     iccp_composed_star_see(seen, star, q);
-    return iccp_composed_star_energy(star, seen);
+    return iccp_composed_star_energy(star, seen, most);
 }
 
 /* Looks for a better place in the whole room that the ring leaves a vertex: at its middle, and on
@@ -111,7 +112,7 @@ static double jump(iccp_relaxation *r, iccp_composed_star *star, double p[3], do
         const double share = i < n ? 0.5 : 0.85;
         for (int k = 0; k < 3; ++k)
             q[k] = i < 2 * n ? middle[k] + share * (r->room[i % n][k] - middle[k]) : middle[k];
-        const double now = energy_towards(star, q);
+        const double now = energy_towards(star, q, least);
         if (now < least) {
             least = now;
             memcpy(p, q, sizeof q);
@@ -136,6 +137,7 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
     if (status != ICC_OK)
         return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
     const double here = expand(gradient, hessian, star);
+    const double worst = (star->is_severe ? iccp_severely_bad : bad) * star->weight;
     *energy += here;
     iccp_newton_step(step, gradient, hessian, star->farthest);
     step[0] *= longer;
@@ -145,7 +147,7 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
         double q[3];
         for (int k = 0; k < 3; ++k)
             q[k] = star->p[k] + step[0] * star->axis[0][k] + step[1] * star->axis[1][k];
-        const double now = energy_towards(star, q);
+        const double now = energy_towards(star, q, least);
         if (now < least) {
             memcpy(p, q, sizeof q);
             least = now;
@@ -154,8 +156,7 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
         step[0] *= shorter;
         step[1] *= shorter;
     }
-    if (least > (star->is_severe ? iccp_severely_bad : bad) * star->weight &&
-        star->n <= ICCP_JUMP_NEIGHBOURS)
+    if (least > worst && star->n <= ICCP_JUMP_NEIGHBOURS)
         least = jump(r, star, p, least);
     *gain += here - least;
     return ICC_OK;

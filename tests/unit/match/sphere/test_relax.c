@@ -63,7 +63,7 @@ static double energy_of(const drawn *one, const drawn *other, bool is_severe, do
     for (uint32_t v = 0; v < a.m->n_vertices; ++v) {
         face = iccp_drawn_walk(b.m, b.directions, face, a.directions + 3 * (size_t)v);
         ck_assert_int_eq(iccp_composed_star_gather(&star, &a, v, &b, face), ICC_OK);
-        sum += iccp_composed_star_energy(&star, (const double[]){0, 0, 1});
+        sum += iccp_composed_star_energy(&star, (const double[]){0, 0, 1}, HUGE_VAL);
         *weight += star.weight;
     }
     iccp_composed_star_free(&star);
@@ -81,6 +81,43 @@ START_TEST(a_surface_on_itself_is_not_stretched)
     ck_assert_double_eq_tol(energy_of(&one, &one, true, &weight) / weight, 8, 1e-9);
     ck_assert_double_eq_tol(weight / (3 * 2 * 4 * 3.14159265358979323846), 1, 1e-2);
     free_drawn(&one);
+}
+END_TEST
+
+/* A star's energy at a place does not depend on the places asked before. At or above the limit it
+ * is HUGE_VAL. */
+START_TEST(energies_of_a_star_are_the_same_in_any_order)
+{
+    enum { N = 5 };
+    const iccp_memory memory = iccp_memory_default;
+    random_source r = {11};
+    surface_star(&shape, 3, .3, &r);
+    drawn one = draw(&shape);
+    surface_star(&shape, 3, .3, &r);
+    drawn other = draw(&shape);
+    const iccp_drawn_surface a = part_of(&one), b = part_of(&other);
+    iccp_composed_star star;
+    uint32_t face = 0;
+    ck_assert(iccp_composed_star_create(&star, a.m->most_neighbours, b.m->n_faces, &memory));
+    for (uint32_t v = 0; v < a.m->n_vertices; ++v) {
+        double energy[N];
+        face = iccp_drawn_walk(b.m, b.directions, face, a.directions + 3 * (size_t)v);
+        for (int k = 0; k < 2 * N; ++k) {
+            const int i = k < N ? k : 2 * N - 1 - k;
+            if (k <= N) /* later, all is known */
+                ck_assert_int_eq(iccp_composed_star_gather(&star, &a, v, &b, face), ICC_OK);
+            const double place[3] = {.1 * i * star.radius, -.15 * i * star.radius, 1};
+            const double now = iccp_composed_star_energy(&star, place, HUGE_VAL);
+            if (k < N)
+                energy[i] = now;
+            ck_assert(now == energy[i] && now > 0 && now < 1e8);
+            ck_assert(iccp_composed_star_energy(&star, place, now) == HUGE_VAL);
+            ck_assert(iccp_composed_star_energy(&star, place, (1 + 1e-12) * now) == now);
+        }
+    }
+    iccp_composed_star_free(&star);
+    free_drawn(&one);
+    free_drawn(&other);
 }
 END_TEST
 
@@ -239,6 +276,7 @@ int main(void)
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 3600);
     tcase_add_test(tests, a_surface_on_itself_is_not_stretched);
+    tcase_add_test(tests, energies_of_a_star_are_the_same_in_any_order);
     tcase_add_test(tests, relaxing_lowers_the_energy_and_keeps_the_class);
     tcase_add_test(tests, halved_edges_are_made_whole);
     tcase_add_test(tests, likely_pairs_are_partners);
