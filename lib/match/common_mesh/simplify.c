@@ -8,6 +8,7 @@
 #include "base/heap.h"
 #include "base/minmax.h"
 #include "match/surface/corner_angle.h"
+#include "match/surface/vertex_stamps.h"
 
 #include <string.h>
 
@@ -37,6 +38,8 @@ typedef struct simplification {
     uint32_t *marked[2]; /* by given face: the last vertex that visited it */
     uint32_t mark;
     iccp_heap heap; /* vertices by the cost of their cheapest collapse, as computed last */
+    uint32_t *best; /* by vertex: that collapse; or ICCP_NO_EDGE */
+    iccp_vertex_stamps stamps; /* of `best` */
 } simplification;
 
 static const double *at(const simplification *s, int side, uint32_t vertex)
@@ -204,10 +207,13 @@ static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
     return best;
 }
 
+/* Computes the cheapest collapse and its cost. */
 static void look_at(simplification *s, uint32_t vertex)
 {
     double cost;
-    if (find_cheapest(s, vertex, &cost) != ICCP_NO_EDGE)
+    s->best[vertex] = find_cheapest(s, vertex, &cost);
+    s->stamps.known[vertex] = s->stamps.now;
+    if (s->best[vertex] != ICCP_NO_EDGE)
         iccp_heap_put(&s->heap, vertex, cost);
 }
 
@@ -219,14 +225,19 @@ static void collapse(simplification *s, uint32_t h)
     iccp_edge_collapse(m, h);
     for (int side = 0; side < 2; ++side)
         hand_over(s, side, u, v);
-    look_at(s, v);
+    s->stamps.change[v] = ++s->stamps.now;
     uint32_t e = first;
+    for (uint32_t k = 0; k < n; ++k, e = iccp_edge_turn(m, e))
+        s->stamps.change[iccp_edge_end(m, e)] = s->stamps.now;
+    look_at(s, v);
+    e = first;
     for (uint32_t k = 0; k < n; ++k, e = iccp_edge_turn(m, e))
         look_at(s, iccp_edge_end(m, e));
 }
 
-/* The cost of a vertex depends on the triangles around it and around its neighbours. It is computed
- * again when its turn comes. If it has risen, the vertex goes back into the queue. */
+/* The cost of a vertex depends on the triangles around it and around its neighbours. If these have
+ * changed, it is computed again when its turn comes. If it has risen, the vertex goes back into the
+ * queue. */
 static icc_status run(simplification *s, const iccp_env *env)
 {
     const size_t n_first = s->m.n_left;
@@ -235,9 +246,13 @@ static icc_status run(simplification *s, const iccp_env *env)
         look_at(s, v);
     for (size_t n = 0; s->heap.n_entries > 0 && status == ICC_OK; ++n) {
         const double key = s->heap.entry[0].key;
-        double cost;
+        double cost = key;
         const uint32_t vertex = iccp_heap_pop(&s->heap);
-        const uint32_t h = find_cheapest(s, vertex, &cost);
+        uint32_t h = s->best[vertex];
+        if (!iccp_vertex_stamps_hold(&s->stamps, &s->m, vertex))
+            h = find_cheapest(s, vertex, &cost);
+        s->best[vertex] = h;
+        s->stamps.known[vertex] = s->stamps.now;
         if (h != ICCP_NO_EDGE && cost > key)
             iccp_heap_put(&s->heap, vertex, cost);
         else if (h != ICCP_NO_EDGE)
@@ -266,7 +281,9 @@ static icc_status simplify(simplification *s, iccp_common_surface *c, uint32_t *
         find_planes(s, side, given[side], x[side]);
         link_planes(s, side);
     }
-    if (!iccp_heap_create(&s->heap, c->n_vertices, memory))
+    s->best = iccp_alloc(memory, c->n_vertices, sizeof *s->best);
+    if (!iccp_heap_create(&s->heap, c->n_vertices, memory) ||
+        !iccp_vertex_stamps_create(&s->stamps, c->n_vertices, memory) || s->best == NULL)
         return ICC_ERR_MEMORY;
     const icc_status status = run(s, env);
     if (status == ICC_OK)
@@ -290,6 +307,8 @@ icc_status iccp_simplify(iccp_common_surface *common, uint32_t *became,
         iccp_free(&env->memory, s.marked[side]);
     }
     iccp_heap_free(&s.heap, &env->memory);
+    iccp_vertex_stamps_free(&s.stamps, &env->memory);
+    iccp_free(&env->memory, s.best);
     iccp_half_edges_free(&s.m);
     return status;
 }
