@@ -3,6 +3,7 @@
  * close together, so no sorting is needed. */
 #include "geometry/boxtree.h"
 
+#include "base/compiler.h"
 #include "geometry/away.h"
 #include "geometry/segment.h"
 
@@ -110,7 +111,7 @@ bool iccp_boxtree_next(iccp_boxtree_query *query, uint32_t *edge)
     return false;
 }
 
-static double box_distance2(const iccp_box *box, const double *p)
+static ICCP_INLINE double box_distance2(const iccp_box *box, const double *p)
 {
     double sum = 0;
     for (int k = 0; k < 2; ++k) {
@@ -121,7 +122,8 @@ static double box_distance2(const iccp_box *box, const double *p)
     return sum;
 }
 
-static double node_distance2(const iccp_boxtree *tree, size_t node, const iccp_viewpoint *from)
+static ICCP_INLINE double node_distance2(const iccp_boxtree *tree, size_t node,
+                                         const iccp_viewpoint *from)
 {
     if (tree->boxes == NULL)
         return -HUGE_VAL;
@@ -142,8 +144,8 @@ static double value_at(const iccp_away *away, const double *a, const double *b, 
     return iccp_away_value(away, 2, t < 1 ? q : b);
 }
 
-static void search_leaf(const iccp_boxtree *tree, size_t node, const iccp_viewpoint *from,
-                        nearest *best)
+static ICCP_INLINE void search_leaf(const iccp_boxtree *tree, size_t node,
+                                    const iccp_viewpoint *from, nearest *best)
 {
     const size_t end = leaf_end(tree, node);
     for (size_t e = (node - tree->n_leaves) * LEAF; e < end; ++e) {
@@ -156,8 +158,8 @@ static void search_leaf(const iccp_boxtree *tree, size_t node, const iccp_viewpo
     }
 }
 
-uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double *t,
-                              double *distance2)
+/* With a constant from->away the compiler drops what is for the other kind of point. */
+static ICCP_INLINE nearest search(const iccp_boxtree *tree, const iccp_viewpoint *from)
 {
     struct {
         size_t node;
@@ -165,32 +167,39 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
     } stack[DEEP];
     nearest best = {UINT32_MAX, 0, HUGE_VAL};
     size_t depth = 0, node = 1;
-    iccp_away away;
-    iccp_viewpoint from = {p, NULL};
-    if (iccp_away_is_far(2, p)) {
-        away = iccp_away_from(2, p);
-        from.away = &away;
-    }
     for (;;) {
         while (node < tree->n_leaves) {
-            const double left = node_distance2(tree, 2 * node, &from);
-            const double right = node_distance2(tree, 2 * node + 1, &from);
+            const double left = node_distance2(tree, 2 * node, from);
+            const double right = node_distance2(tree, 2 * node + 1, from);
             const size_t far = right < left ? 2 * node : 2 * node + 1;
             stack[depth].node = far;
             stack[depth++].distance2 = right < left ? left : right;
             node = far ^ 1;
         }
-        search_leaf(tree, node, &from, &best);
+        search_leaf(tree, node, from, &best);
         do {
-            if (depth == 0) {
-                *t = best.t;
-                *distance2 = best.distance2;
-                return best.edge;
-            }
+            if (depth == 0)
+                return best;
             --depth;
         } while (stack[depth].distance2 > best.distance2);
         node = stack[depth].node;
     }
+}
+
+static nearest search_from_afar(const iccp_boxtree *tree, const double *p)
+{
+    const iccp_away away = iccp_away_from(2, p);
+    return search(tree, &(iccp_viewpoint){p, &away});
+}
+
+uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double *t,
+                              double *distance2)
+{
+    const nearest best = iccp_away_is_far(2, p) ? search_from_afar(tree, p)
+                                                : search(tree, &(iccp_viewpoint){p, NULL});
+    *t = best.t;
+    *distance2 = best.distance2;
+    return best.edge;
 }
 
 bool iccp_boxtree_reaches(const iccp_boxtree *tree, const double *p, double distance2)
