@@ -107,9 +107,9 @@ void iccp_boundary_pixels_free(iccp_boundary_pixels *boundary)
 
 /* ---- deciding ---- */
 
-/* Finds the source point of a pixel's centre. Returns ICC_ERR_OUTSIDE if the centre is outside. A
- * centre that is inside but in no triangle lies within rounding of the boundary. */
-static icc_status origin(const icc_map *map, const double centre[2], double place[2])
+/* Finds the source point of a pixel's centre. Returns false if the centre is outside. A centre that
+ * is inside but in no triangle lies within rounding of the boundary. */
+static bool origin(const icc_map *map, const double centre[2], double place[2])
 {
     const icc_domain *from = map->target_domain, *to = map->source_domain;
     double local[2], image[2], bary[2];
@@ -117,34 +117,26 @@ static icc_status origin(const icc_map *map, const double centre[2], double plac
     iccp_frame_in(&from->frame, 2, centre, local);
     const int32_t where = iccp_domain_locate(from, local, false, &facet, bary);
     if (where == ICC_OUTSIDE)
-        return ICC_ERR_OUTSIDE;
-    icc_status found = ICC_ERR_TRACE;
-    if (where == ICC_INSIDE)
-        found = iccp_mesh_map_point(iccp_plane_of(map), true, local, image, NULL);
-    if (found == ICC_ERR_MEMORY)
-        return found;
-    if (found != ICC_OK)
+        return false;
+    if (where == ICC_BOUNDARY ||
+        iccp_mesh_map_point(iccp_plane_of(map), true, local, image, NULL) != ICC_OK)
         iccp_domain_facet_point(to, facet, bary, image);
     iccp_frame_out(&to->frame, 2, image, place);
-    return ICC_OK;
+    return true;
 }
 
-icc_status iccp_boundary_pixels_decide(const iccp_boundary_pixels *boundary, const icc_map *map,
-                                       const iccp_sampler *source, const icc_picture *target)
+void iccp_boundary_pixels_decide(const iccp_boundary_pixels *boundary, const icc_map *map,
+                                 const iccp_sampler *source, const icc_picture *target)
 {
     for (size_t k = 0; k < boundary->n; ++k) {
         const struct iccp_boundary_pixel *pixel = &boundary->pixels[k];
         const double centre[2] = {pixel->column + 0.5, pixel->row + 0.5};
         double place[2];
         uint8_t *to = pixel_at(target, pixel->column, pixel->row);
-        const icc_status status = origin(map, centre, place);
-        if (status == ICC_OK) {
+        if (origin(map, centre, place)) {
             const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
             iccp_sampler_paint(source, &line, to);
-        } else if (status == ICC_ERR_OUTSIDE)
+        } else
             memcpy(to, pixel->before, (size_t)(target->channels * target->bytes));
-        else
-            return status;
     }
-    return ICC_OK;
 }

@@ -20,9 +20,8 @@ icc_status iccp_boundary_pixels_create(iccp_boundary_pixels *boundary, const icc
                                        const icc_picture *target, const iccp_env *env);
 void iccp_boundary_pixels_free(iccp_boundary_pixels *boundary);
 
-/* Decides each pixel exactly: restores the target's pixel, or paints the pixel. Returns ICC_OK or
- * ICC_ERR_MEMORY. */
-icc_status iccp_boundary_pixels_decide(const iccp_boundary_pixels *boundary, const icc_map *map,
-                                       const iccp_sampler *source, const icc_picture *target);
+/* Decides each pixel exactly: restores the target's pixel, or paints the pixel. */
+void iccp_boundary_pixels_decide(const iccp_boundary_pixels *boundary, const icc_map *map,
+                                 const iccp_sampler *source, const icc_picture *target);
 
 #endif

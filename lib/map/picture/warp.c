@@ -231,8 +231,7 @@ static icc_status paint_band(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Only pixels close to the boundary need the map's point location, and most pictures have none. So
- * the first of them makes it. */
+/* Only pixels close to the boundary need the map's point location, and most pictures have none. */
 static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
                             const icc_picture *target, const iccp_env *env)
 {
@@ -245,11 +244,14 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
     icc_status status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
     if (status != ICC_OK)
         return status;
-    status = prepare(&w);
+    if (boundary.n > 0)
+        status = iccp_mesh_map_ready(iccp_plane_of(map), true);
+    if (status == ICC_OK)
+        status = prepare(&w);
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_band, &w);
     if (status == ICC_OK)
-        status = iccp_boundary_pixels_decide(&boundary, map, &w.source, target);
+        iccp_boundary_pixels_decide(&boundary, map, &w.source, target);
     clear(&w);
     iccp_boundary_pixels_free(&boundary);
     return status;
