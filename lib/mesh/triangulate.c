@@ -20,52 +20,31 @@ static bool faces_wall(const iccp_trimesh *mesh, uint32_t corner)
     return a < mesh->n_points && b < mesh->n_points && iccp_is_wall(mesh, a, b);
 }
 
-/* Returns a triangle with the ghost. */
-static uint32_t find_ghost(const iccp_trimesh *mesh)
-{
-    uint32_t corner = 0;
-    while (mesh->corners[corner].vertex != mesh->n_points)
-        ++corner;
-    return corner / 3;
-}
-
-/* Sets number[t], which is 0, to OUTSIDE where a triangle is reached from a ghost without crossing
- * a wall. The rest is inside if the walls are one polygon. `stack` has room for every triangle. */
-static void mark_around(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
+/* Sets number[t] to OUTSIDE or to 0. It begins outside, with a ghost. If the walls are one polygon,
+ * it does not cross them: what it does not reach is inside. Otherwise each wall leads from outside
+ * to inside or back. `stack` has room for every triangle. Returns ICC_ERR_TOPOLOGY if several
+ * polygons do not separate inside from outside. */
+static icc_status mark_outside(const iccp_trimesh *mesh, bool is_one, uint32_t *number,
+                               uint32_t *stack)
 {
     const iccp_corner *const c = mesh->corners;
-    uint32_t n = 0;
-    stack[n++] = find_ghost(mesh);
-    number[stack[0]] = OUTSIDE;
-    while (n > 0) {
-        const uint32_t triangle = stack[--n];
-        for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
-            const uint32_t other = c[corner].twin / 3;
-            if (number[other] == OUTSIDE || faces_wall(mesh, corner))
-                continue;
-            number[other] = OUTSIDE;
-            stack[n++] = other;
-        }
-    }
-}
-
-/* Sets number[t] to OUTSIDE or to 0 if there are several polygons: each wall leads from outside to
- * inside or back. Returns ICC_ERR_TOPOLOGY if walls do not separate the two. */
-static icc_status mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
-{
-    const iccp_corner *const c = mesh->corners;
-    const uint32_t unseen = OUTSIDE - 1;
+    const uint32_t unseen = is_one ? 0 : OUTSIDE - 1;
     icc_status status = ICC_OK;
-    uint32_t n = 0;
+    uint32_t seed = 0, n = 0;
     for (uint32_t t = 0; t < mesh->n_triangles; ++t)
         number[t] = unseen;
-    stack[n++] = find_ghost(mesh);
-    number[stack[0]] = OUTSIDE;
+    while (c[seed].vertex != mesh->n_points)
+        ++seed;
+    stack[n++] = seed / 3;
+    number[seed / 3] = OUTSIDE;
     while (n > 0) {
         const uint32_t triangle = stack[--n];
         for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
             const uint32_t other = c[corner].twin / 3;
-            const bool is_outside = (number[triangle] == OUTSIDE) != faces_wall(mesh, corner);
+            if (is_one && (number[other] == OUTSIDE || faces_wall(mesh, corner)))
+                continue;
+            const bool is_outside =
+                is_one || (number[triangle] == OUTSIDE) != faces_wall(mesh, corner);
             const uint32_t mark = is_outside ? OUTSIDE : 0;
             if (number[other] == unseen)
                 stack[n++] = other;
@@ -119,14 +98,14 @@ static icc_status extract(const iccp_trimesh *mesh, uint32_t *triangles, uint32_
                           const iccp_env *env, icc_error *err)
 {
     const size_t n = mesh->n_triangles;
-    uint32_t *number = iccp_alloc_zero(&env->memory, n, sizeof *number);
+    uint32_t *number = iccp_alloc(&env->memory, n, sizeof *number);
     uint32_t *stack = iccp_alloc(&env->memory, n, sizeof *stack);
     icc_status status = ICC_OK;
     if (number == NULL || stack == NULL) {
         status = iccp_fail_memory(err);
         goto done;
     }
-    mark_around(mesh, number, stack);
+    (void)mark_outside(mesh, true, number, stack);
     const uint32_t outsider = find_outsider(mesh, number);
     if (outsider < mesh->n_points) {
         status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, outsider,
@@ -183,7 +162,7 @@ icc_status iccp_triangulate_walls(size_t n_points, const double *points, const i
         status = iccp_constrain(&mesh, env, NULL);
     mesh.walls = bounds;
     if (status == ICC_OK)
-        status = mark_outside(&mesh, number, stack);
+        status = mark_outside(&mesh, false, number, stack);
     if (status == ICC_OK) {
         *n_triangles = number_inside(&mesh, number);
         copy_out(&mesh, number, triangles, neighbours);
