@@ -8,7 +8,6 @@
 #include "base/heap.h"
 #include "base/minmax.h"
 #include "match/surface/corner_angle.h"
-#include "match/surface/vertex_stamps.h"
 
 #include <string.h>
 
@@ -39,7 +38,9 @@ typedef struct simplification {
     uint32_t mark;
     iccp_heap heap; /* vertices by the cost of their cheapest collapse, as computed last */
     uint32_t *best; /* by vertex: that collapse; or ICCP_NO_EDGE */
-    iccp_vertex_stamps stamps; /* of `best` */
+    uint32_t n_collapsed;
+    uint32_t *known;   /* by vertex: n_collapsed when `best` was computed */
+    uint32_t *changed; /* by vertex: n_collapsed after a triangle at it last changed */
 } simplification;
 
 static const double *at(const simplification *s, int side, uint32_t vertex)
@@ -207,14 +208,34 @@ static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
     return best;
 }
 
-/* Computes the cheapest collapse and its cost. */
+static void examine(simplification *s, uint32_t vertex, double *cost)
+{
+    s->best[vertex] = find_cheapest(s, vertex, cost);
+    s->known[vertex] = s->n_collapsed;
+}
+
+static void put(simplification *s, uint32_t vertex, double cost)
+{
+    if (s->best[vertex] != ICCP_NO_EDGE)
+        iccp_heap_put(&s->heap, vertex, cost);
+}
+
 static void look_at(simplification *s, uint32_t vertex)
 {
     double cost;
-    s->best[vertex] = find_cheapest(s, vertex, &cost);
-    s->stamps.known[vertex] = s->stamps.now;
-    if (s->best[vertex] != ICCP_NO_EDGE)
-        iccp_heap_put(&s->heap, vertex, cost);
+    examine(s, vertex, &cost);
+    put(s, vertex, cost);
+}
+
+/* Returns true if a vertex was examined after the last change of the triangles at it and at its
+ * neighbours, on which its collapses and their costs depend. */
+static bool is_known(const simplification *s, uint32_t vertex)
+{
+    bool is = s->changed[vertex] <= s->known[vertex];
+    uint32_t h = s->m.out[vertex];
+    for (uint32_t k = 0; k < s->m.degree[vertex] && is; ++k, h = iccp_edge_turn(&s->m, h))
+        is = s->changed[iccp_edge_end(&s->m, h)] <= s->known[vertex];
+    return is;
 }
 
 static void collapse(simplification *s, uint32_t h)
@@ -225,19 +246,18 @@ static void collapse(simplification *s, uint32_t h)
     iccp_edge_collapse(m, h);
     for (int side = 0; side < 2; ++side)
         hand_over(s, side, u, v);
-    s->stamps.change[v] = ++s->stamps.now;
+    s->changed[v] = ++s->n_collapsed;
     uint32_t e = first;
     for (uint32_t k = 0; k < n; ++k, e = iccp_edge_turn(m, e))
-        s->stamps.change[iccp_edge_end(m, e)] = s->stamps.now;
+        s->changed[iccp_edge_end(m, e)] = s->n_collapsed;
     look_at(s, v);
     e = first;
     for (uint32_t k = 0; k < n; ++k, e = iccp_edge_turn(m, e))
         look_at(s, iccp_edge_end(m, e));
 }
 
-/* The cost of a vertex depends on the triangles around it and around its neighbours. If these have
- * changed, it is computed again when its turn comes. If it has risen, the vertex goes back into the
- * queue. */
+/* When a vertex's turn comes, it is examined again if something around it has changed. If its cost
+ * has risen, it goes back into the queue. */
 static icc_status run(simplification *s, const iccp_env *env)
 {
     const size_t n_first = s->m.n_left;
@@ -248,15 +268,12 @@ static icc_status run(simplification *s, const iccp_env *env)
         const double key = s->heap.entry[0].key;
         double cost = key;
         const uint32_t vertex = iccp_heap_pop(&s->heap);
-        uint32_t h = s->best[vertex];
-        if (!iccp_vertex_stamps_hold(&s->stamps, &s->m, vertex))
-            h = find_cheapest(s, vertex, &cost);
-        s->best[vertex] = h;
-        s->stamps.known[vertex] = s->stamps.now;
-        if (h != ICCP_NO_EDGE && cost > key)
-            iccp_heap_put(&s->heap, vertex, cost);
-        else if (h != ICCP_NO_EDGE)
-            collapse(s, h);
+        if (!is_known(s, vertex))
+            examine(s, vertex, &cost);
+        if (cost > key)
+            put(s, vertex, cost);
+        else if (s->best[vertex] != ICCP_NO_EDGE)
+            collapse(s, s->best[vertex]);
         if (n % 1024 == 0)
             status = iccp_progress(env, "match", 1 - (double)s->m.n_left / (double)n_first);
     }
@@ -282,8 +299,10 @@ static icc_status simplify(simplification *s, iccp_common_surface *c, uint32_t *
         link_planes(s, side);
     }
     s->best = iccp_alloc(memory, c->n_vertices, sizeof *s->best);
-    if (!iccp_heap_create(&s->heap, c->n_vertices, memory) ||
-        !iccp_vertex_stamps_create(&s->stamps, c->n_vertices, memory) || s->best == NULL)
+    s->known = iccp_alloc(memory, c->n_vertices, sizeof *s->known);
+    s->changed = iccp_alloc_zero(memory, c->n_vertices, sizeof *s->changed);
+    if (!iccp_heap_create(&s->heap, c->n_vertices, memory) || s->best == NULL || s->known == NULL ||
+        s->changed == NULL)
         return ICC_ERR_MEMORY;
     const icc_status status = run(s, env);
     if (status == ICC_OK)
@@ -307,8 +326,9 @@ icc_status iccp_simplify(iccp_common_surface *common, uint32_t *became,
         iccp_free(&env->memory, s.marked[side]);
     }
     iccp_heap_free(&s.heap, &env->memory);
-    iccp_vertex_stamps_free(&s.stamps, &env->memory);
     iccp_free(&env->memory, s.best);
+    iccp_free(&env->memory, s.known);
+    iccp_free(&env->memory, s.changed);
     iccp_half_edges_free(&s.m);
     return status;
 }

@@ -73,10 +73,11 @@ icc_status iccp_composed_star_gather(iccp_composed_star *star, const iccp_drawn_
 void iccp_composed_star_see(double seen[3], const iccp_composed_star *star, const double q[3]);
 
 /* Returns the energy if the vertex moves to `seen`, a place inside the ring as seen from the
- * present one. If it is `most` or more, returns HUGE_VAL. It is a sum over the common pieces of
- * triangles: the area on both surfaces times E, or E^1.5 if star->is_severe. Here E = (s^2 + t^2)(1
- * + 1 / (s t)^2), where s and t are the singular values of the map from one surface to the
- * other. */
+ * present one. Returns HUGE_VAL if the energy is `most` or more.
+ *
+ * The energy is a sum over the common pieces of triangles: the area on both surfaces times E, or
+ * E^1.5 if star->is_severe. E is (s^2 + t^2) (1 + 1 / (s t)^2), where s and t are the singular
+ * values of the map from one surface to the other. */
 double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3], double most);
 
 #endif

@@ -137,6 +137,7 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
     if (status != ICC_OK)
         return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
     const double here = expand(gradient, hessian, star);
+    /* Later energies leave no weight where they exceed the least one. */
     const double worst = (star->is_severe ? iccp_severely_bad : bad) * star->weight;
     *energy += here;
     iccp_newton_step(step, gradient, hessian, star->farthest);

@@ -35,7 +35,6 @@
  *   optimise_shape.h also flips and moves; shape_patch.h asks covering.h for distances and
  *   clearance.h for contact. intersections.h finds what meets.
  * - Measures: stretch.h, corner_angle.h. Back to the surface: drawn_place.h, sphere/drawn_finder.h.
- * - Queues of vertices: vertex_stamps.h tells which are to be examined again.
  *
  * Begin with ../surfaces.c and ../sphere_pair.c. */
 #ifndef ICCP_HALF_EDGES_H
